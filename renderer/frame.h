@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "renderer/plan/plan.h"
+#include "scene/image.h"
+
+namespace pellucid::renderer {
+
+/// How wrong a picture is, in units of what is shown (1 = full range; 1/255 = one grey level).
+struct ErrorEstimate {
+    double maxError = 0.0;         ///< Largest over the probed pixels, from halving the step (Richardson).
+    double rmse = 0.0;             ///< Over the probed pixels and RGB.
+    double terminationBound = 0.0; ///< What early ray termination may add at most.
+    double tableBound = 0.0;       ///< What the transfer table may add at most for one sample's colour.
+    int probedPixels = 0;
+    std::string method;            ///< A sentence: how it was found.
+};
+
+struct FrameCost {
+    double gpuMs = 0.0;       ///< Sum of GPU timer queries over all tiles.
+    double wallMs = 0.0;      ///< From the call to the pixels, uploads and compilation included.
+    double prepareMs = 0.0;   ///< The part of wallMs before the first tile: compile, upload, tables.
+    int tiles = 0;
+    double longestTileMs = 0.0;
+};
+
+/// Pixels, what they cost and how wrong they are.
+struct Frame {
+    ImageF image;
+    FrameCost cost;
+    std::optional<ErrorEstimate> error;   ///< When asked for.
+    Plan plan;
+};
+
+}  // namespace pellucid::renderer

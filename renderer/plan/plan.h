@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "renderer/plan/features.h"
+#include "scene/scene.h"
+
+namespace pellucid::renderer {
+
+/// What a plan needs to know of a volume: everything but the voxels.
+struct VolumeFacts {
+    Grid grid;
+    VoxelType type = VoxelType::UInt8;
+    ValueRange physicalRange;
+    bool operator==(const VolumeFacts&) const = default;
+};
+[[nodiscard]] VolumeFacts factsOf(const Volume& volume, int component);
+
+/// One row of a plan: a stage and the shader file chosen for it.
+struct StageRow {
+    std::string stage;    ///< "reconstruct".
+    std::string variant;  ///< "trilinear": the file renderer/shaders/reconstruct/trilinear.glsl.
+    std::string reason;
+    bool operator==(const StageRow&) const = default;
+};
+
+struct ResourceRow {
+    std::string name;     ///< "volume", "transfer table", "lights".
+    std::string kind;     ///< "texture 3D R16", "uniform block".
+    std::uint64_t bytes = 0;
+    std::string reason;
+    bool operator==(const ResourceRow&) const = default;
+};
+
+struct PassRow {
+    std::string name;     ///< "ray casting".
+    std::string target;   ///< "1024x768 RGBA32F".
+    std::uint64_t bytes = 0;
+    std::string reason;
+    bool operator==(const PassRow&) const = default;
+};
+
+struct LeftOutRow {
+    std::string what;     ///< "gradient".
+    std::string reason;   ///< "no light".
+    bool operator==(const LeftOutRow&) const = default;
+};
+
+/// What drawing a scene needs, and nothing else: what is not listed is neither compiled, allocated, computed nor bound.
+/// Made without a GPU.
+struct Plan {
+    Features features;
+    std::vector<StageRow> stages;
+    std::vector<PassRow> passes;
+    std::vector<ResourceRow> resources;
+    std::vector<LeftOutRow> leftOut;
+    int tableSize = 0;                      ///< Entries of the transfer table, 0 without one.
+    double tableWorstError = 0.0;           ///< Largest difference of table and function: colour channel or opacity of one step.
+    double stepMm = 0.0;
+    double samplesPerRay = 0.0;             ///< Upper bound: volume diagonal / step.
+    double earlyTerminationBound = 0.0;     ///< Error bound in display units; 0 when rays never stop early.
+    std::uint64_t totalBytes = 0;           ///< GPU memory of passes and resources.
+    bool operator==(const Plan&) const = default;
+};
+
+/// Precondition: the scene is completed(). Errors: InvalidArgument, Unsupported (more than one volume, grids that
+/// are not finite), TooLarge (a size beyond `limits`).
+struct DeviceLimits {
+    int max3dTextureSize = 2048;
+    std::uint64_t maxTextureBytes = 16ull << 30;
+};
+[[nodiscard]] Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
+                                    const DeviceLimits& limits = {});
+
+[[nodiscard]] std::string planText(const Plan& plan);
+[[nodiscard]] nlohmann::ordered_json planJson(const Plan& plan);
+
+}  // namespace pellucid::renderer
