@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 namespace pellucid {
 
 /// Prints the text and aborts. For broken contracts (a programmer's mistake), never for input.
@@ -11,17 +13,17 @@ namespace pellucid {
 
 }  // namespace pellucid
 
-#define PELLUCID_CHECK(condition) \
-    do {                          \
+#define PELLUCID_CHECK(condition)                                                     \
+    do {                                                                              \
         if (!(condition)) ::pellucid::contractBroken(__FILE__, __LINE__, #condition); \
     } while (false)
 
 /// Aborts with both values shown unless a == b.
-#define PELLUCID_CHECK_EQ(a, b)                                                                        \
-    do {                                                                                               \
-        const auto& checkA = (a);                                                                      \
-        const auto& checkB = (b);                                                                      \
-        if (!(checkA == checkB))                                                                       \
-            ::pellucid::contractBroken(__FILE__, __LINE__,                                             \
+#define PELLUCID_CHECK_EQ(a, b)                                                                         \
+    do {                                                                                                \
+        const auto& checkA = (a);                                                                       \
+        const auto& checkB = (b);                                                                       \
+        if (!(checkA == checkB))                                                                        \
+            ::pellucid::contractBroken(__FILE__, __LINE__,                                              \
                                        fmt::format("{} == {}: {} against {}", #a, #b, checkA, checkB)); \
     } while (false)

@@ -12,9 +12,9 @@ namespace pellucid {
 
 /// Counts of physical values in equal bins over [range.lo, range.hi]; the last bin includes hi.
 struct Histogram {
-    ValueRange range;                    ///< Physical values, lo <= hi; all in bin 0 when lo == hi.
+    ValueRange range;  ///< Physical values, lo <= hi; all in bin 0 when lo == hi.
     std::vector<std::uint64_t> counts;
-    std::uint64_t nonFinite = 0;         ///< Voxels left out because they are NaN or infinite.
+    std::uint64_t nonFinite = 0;  ///< Voxels left out because they are NaN or infinite.
 
     [[nodiscard]] std::uint64_t total() const;
     /// The physical value below which `fraction` in [0, 1] of the counted voxels lie (linear within a bin).

@@ -9,14 +9,16 @@
 
 namespace pellucid {
 
-/// Float picture, row 0 at the top, RGBA. RGB are in units of what is shown (display-encoded, [0, 1] is the displayable
-/// range, not clamped) with the background composited in; A is the opacity of the volume, 1 - T. With a
-/// transparent background RGB is associated with A.
+/// Float picture, row 0 at the top, RGBA. RGB are in units of what is shown (display-encoded, [0, 1] is the
+/// displayable range, not clamped) with the background composited in; A is the opacity of the volume, 1 - T.
+/// With a transparent background RGB is associated with A.
 struct ImageF {
     glm::ivec2 size{0, 0};
     std::vector<glm::vec4> pixels;
 
-    [[nodiscard]] const glm::vec4& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * size.x + x]; }
+    [[nodiscard]] const glm::vec4& at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * size.x + x];
+    }
     [[nodiscard]] glm::vec4& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * size.x + x]; }
     bool operator==(const ImageF&) const = default;
 };
@@ -29,9 +31,9 @@ struct Image8 {
     bool operator==(const Image8&) const = default;
 };
 
-/// The only quantisation in the program: clamp, round to nearest; NaN becomes 0. With dither, a fixed 8x8 Bayer
-/// threshold (Bayer 1973) is used instead of one half, so the mean is kept and the same picture gives the same bytes.
-/// A transparent picture gives RGBA.
+/// The only quantisation in the program: clamp, round to nearest; NaN becomes 0. With dither, a fixed 8x8
+/// Bayer threshold (Bayer 1973) is used instead of one half, so the mean is kept and the same picture gives
+/// the same bytes. A transparent picture gives RGBA.
 [[nodiscard]] Image8 quantise(const ImageF& image, bool transparent, bool dither);
 
 /// IEC 61966-2-1 (sRGB) in float; identity-safe outside [0, 1] (mirrored below 0, continued above 1).

@@ -14,10 +14,10 @@ enum class LightKind {
 
 struct Light {
     LightKind kind = LightKind::Headlight;
-    glm::dvec3 color{1.0, 1.0, 1.0};      ///< RGB >= 0, in the compositing space.
-    double intensity = 1.0;               ///< >= 0.
-    glm::dvec3 directionMm{0.0, 1.0, 0.0};///< Directional: where the light travels to; any length but 0.
-    glm::dvec3 positionMm{0.0, 0.0, 0.0}; ///< Point.
+    glm::dvec3 color{1.0, 1.0, 1.0};        ///< RGB >= 0, in the compositing space.
+    double intensity = 1.0;                 ///< >= 0.
+    glm::dvec3 directionMm{0.0, 1.0, 0.0};  ///< Directional: where the light travels to; any length but 0.
+    glm::dvec3 positionMm{0.0, 0.0, 0.0};   ///< Point.
     bool operator==(const Light&) const = default;
 };
 
@@ -29,7 +29,7 @@ struct Material {
     double ambient = 0.1;
     double diffuse = 0.9;
     double specular = 0.2;
-    double shininess = 10.0;              ///< > 0.
+    double shininess = 10.0;  ///< > 0.
     bool operator==(const Material&) const = default;
 };
 

@@ -11,17 +11,19 @@
 
 namespace pellucid {
 
-/// A named look for a modality: transfer function and material. From resources/presets/volume_presets.json, compiled in.
+/// A named look for a modality: transfer function and material. From resources/presets/volume_presets.json,
+/// compiled in.
 struct VolumePreset {
-    std::string name;          ///< "CT bone".
-    std::string modality;      ///< "CT", "MR"; empty: any.
+    std::string name;      ///< "CT bone".
+    std::string modality;  ///< "CT", "MR"; empty: any.
     TransferFunction1D function;
     Material material;
 };
 [[nodiscard]] const std::vector<VolumePreset>& volumePresets();
 [[nodiscard]] const VolumePreset* findVolumePreset(std::string_view name);
 
-/// CT windows as radiologists know them (Brain 80/40, Lung 1500/-600 ...), with the key that selects each (0: none).
+/// CT windows as radiologists know them (Brain 80/40, Lung 1500/-600 ...), with the key that selects each (0:
+/// none).
 struct WindowPreset {
     std::string name;
     Window window;
@@ -29,8 +31,8 @@ struct WindowPreset {
 };
 [[nodiscard]] const std::vector<WindowPreset>& ctWindowPresets();
 
-/// The function a volume is drawn with when the scene says nothing: a CT preset for HU data, else a ramp over the part
-/// of the histogram that is not background.
+/// The function a volume is drawn with when the scene says nothing: a CT preset for HU data, else a ramp over
+/// the part of the histogram that is not background.
 [[nodiscard]] TransferFunction1D defaultTransferFunction(const Volume& volume, int component);
 [[nodiscard]] Window defaultWindow(const Volume& volume, int component);
 [[nodiscard]] double defaultIsovalue(const Volume& volume, int component);

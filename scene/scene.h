@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "scene/camera.h"
 #include "scene/light.h"
+#include "scene/names.h"
 #include "scene/transfer_function.h"
 #include "scene/volume.h"
 
@@ -31,77 +31,85 @@ enum class Mode {
     Emission,    ///< Emission only: background + integral of extinction * colour.
     FirstHit,    ///< Colour of the first point whose extinction reaches hitOpacity, opaque.
     Isosurface,  ///< Opaque surface at the isovalue, refined root.
-    Slice        ///< The plane through the camera's target, perpendicular to the view, shown through the window.
+    Slice  ///< The plane through the camera's target, perpendicular to the view, shown through the window.
 };
 
 /// What an X-ray shows, as grey: transmittance exp(-tau) (bone dark), or opacity 1 - exp(-tau) (bone bright).
 enum class XRayDisplay { Transmittance, Opacity };
 
-/// The space in which colours are blended. Display: as shown, the field's convention. Linear: light-linear, sRGB-encoded at the end.
+/// The space in which colours are blended. Display: as shown, the field's convention. Linear: light-linear,
+/// sRGB-encoded at the end.
 enum class CompositingSpace { Display, Linear };
 
 /// One drawn volume. Unset members follow from the data (completed()).
 struct VolumeItem {
     std::string name;
-    std::string source;               ///< Path, relative to the scene file; may be empty for volumes given in memory.
+    std::string source;  ///< Path, relative to the scene file; may be empty for volumes given in memory.
     int component = 0;
     Filter filter = Filter::Trilinear;
     std::optional<TransferFunction1D> transferFunction;
-    std::optional<Window> window;     ///< Physical level and width for Mip, MinIp, Average and Slice.
-    std::optional<double> isovalue;   ///< Physical value, for Isosurface.
+    std::optional<Window> window;    ///< Physical level and width for Mip, MinIp, Average and Slice.
+    std::optional<double> isovalue;  ///< Physical value, for Isosurface.
     bool operator==(const VolumeItem&) const = default;
 };
 
 struct Quality {
-    double stepVoxels = 0.5;                ///< Ray step in units of the smallest voxel spacing, > 0.
-    std::optional<double> stepMm;           ///< When set, the step in mm instead.
-    double earlyTermination = 1.0 / 1024.0; ///< A ray stops when at most this much light can still pass; the stated bound
-                                            ///< of the error in display units. 0: never stop. In [0, 1).
+    double stepVoxels = 0.5;       ///< Ray step in units of the smallest voxel spacing, > 0.
+    std::optional<double> stepMm;  ///< When set, the step in mm instead.
+    double earlyTermination =
+        1.0 / 1024.0;  ///< A ray stops when at most this much light can still pass; the stated bound
+                       ///< of the error in display units. 0: never stop. In [0, 1).
     bool dither = false;
     bool operator==(const Quality&) const = default;
 };
 
 struct Picture {
-    glm::ivec2 size{1024, 768};             ///< Pixels, each 1..16384.
-    glm::dvec3 background{0.0, 0.0, 0.0};   ///< Display-encoded RGB in [0, 1].
-    bool transparent = false;               ///< RGBA without background.
+    glm::ivec2 size{1024, 768};            ///< Pixels, each 1..16384.
+    glm::dvec3 background{0.0, 0.0, 0.0};  ///< Display-encoded RGB in [0, 1].
+    bool transparent = false;              ///< RGBA without background.
     bool operator==(const Picture&) const = default;
 };
 
-/// What to draw, how, and how exactly. A plain value: the GUI edits one, a script is one, undo is the previous one.
+/// What to draw, how, and how exactly. A plain value: the GUI edits one, a script is one, undo is the
+/// previous one.
 struct Scene {
     std::vector<VolumeItem> volumes;
-    std::optional<std::vector<Light>> lights;  ///< Empty list: unlit. Unset: a headlight where the mode shades.
+    std::optional<std::vector<Light>>
+        lights;  ///< Empty list: unlit. Unset: a headlight where the mode shades.
     Material material;
     Camera camera;
     Mode mode = Mode::Composite;
-    double hitOpacity = 0.5;                   ///< FirstHit: opacity per unit length that counts as a hit, in (0, 1].
+    double hitOpacity = 0.5;  ///< FirstHit: opacity per unit length that counts as a hit, in (0, 1].
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
-    std::optional<double> unitLengthMm;        ///< Length that extinction refers to; unset: mean voxel spacing.
-    double densityScale = 1.0;                 ///< Multiplies all extinction (particle density, Engel et al. section 1.3.2), >= 0.
+    std::optional<double> unitLengthMm;  ///< Length that extinction refers to; unset: mean voxel spacing.
+    double densityScale =
+        1.0;  ///< Multiplies all extinction (particle density, Engel et al. section 1.3.2), >= 0.
     Quality quality;
     Picture picture;
     bool operator==(const Scene&) const = default;
 };
 
-/// Fills in everything unset from the data: transfer function (preset for the modality, else from the value range),
-/// window (the file's first, else from the modality and the range), isovalue, lights, unit length. Pure; idempotent.
-/// Precondition: one volume for each scene.volumes item (completing adds an item for a scene that has none).
+/// Fills in everything unset from the data: transfer function (preset for the modality, else from the value
+/// range), window (the file's first, else from the modality and the range), isovalue, lights, unit length.
+/// Pure; idempotent. A scene without items gets one for the first volume. What belongs to a component the
+/// volume does not have stays unset. Precondition: one volume for each scene.volumes item (or any number and
+/// no item).
 [[nodiscard]] Scene completed(const Scene& scene, const std::vector<VolumePtr>& volumes);
 
-/// Everything a JSON schema cannot say, for scenes made in code too. Errors: InvalidArgument naming the JSON pointer.
+/// Everything a JSON schema cannot say, for scenes made in code too: every number finite and within the
+/// limits stated above, strings in UTF-8. Errors: InvalidArgument, the message beginning with the JSON
+/// pointer.
 [[nodiscard]] Result<void> validate(const Scene& scene);
 
 /// Ray step in mm for a grid.
 [[nodiscard]] double stepMm(const Quality& quality, const Grid& grid);
 
-/// True for the modes whose colours come from the transfer function / are lit / are shown through the window.
+/// Modes whose colours or extinctions come from the transfer function.
 [[nodiscard]] bool usesTransferFunction(Mode mode);
+/// Modes that are lit.
 [[nodiscard]] bool usesLights(Mode mode);
+/// Modes shown through the window.
 [[nodiscard]] bool usesWindow(Mode mode);
-
-[[nodiscard]] const char* name(Mode mode);      ///< "composite", "mip", "minip", "average", "xray", "emission", "first-hit", "isosurface", "slice"
-[[nodiscard]] const char* name(Filter filter);  ///< "nearest", "trilinear", "tricubic-bspline", "catmull-rom"
 
 }  // namespace pellucid

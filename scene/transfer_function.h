@@ -11,50 +11,55 @@
 
 namespace pellucid {
 
-/// The extinction that opacity 1 is stored as: 24 ln 2, so that 1 - exp(-tau) = 1 - 2^-24 rounds to 1 in float.
-/// Extinctions above it are legal (dense media); they merely all show as opacity 1.
+/// The extinction that opacity 1 is stored as: 24 ln 2, so that 1 - exp(-tau) = 1 - 2^-24 rounds to 1 in
+/// float. Extinctions above it are legal (dense media); they merely all show as opacity 1.
 inline constexpr double kOpaqueExtinction = 16.635532333438686;
 
-/// tau = -ln(1 - alpha) per unit length, capped at kOpaqueExtinction (Engel et al. 2006, eq. 1.17 in extinction form).
-/// Precondition: alpha in [0, 1].
+/// tau = -ln(1 - alpha) per unit length, capped at kOpaqueExtinction (Engel et al. 2006, eq. 1.17 in
+/// extinction form). Precondition: alpha in [0, 1].
 [[nodiscard]] double extinctionFromOpacity(double alpha);
 /// alpha = 1 - exp(-tau), exact for small tau; 1 from kOpaqueExtinction on. Precondition: tau >= 0.
 [[nodiscard]] double opacityFromExtinction(double tau);
 
-/// A control point. Between two points colour and extinction are linear in the value; two points at one value are a step
-/// (the later one holds from there on). Below the first and above the last point they stay constant.
+/// A control point. Between two points colour and extinction are linear in the value; two points at one value
+/// are a step (the later one holds from there on). Below the first and above the last point they stay
+/// constant.
 struct TransferPoint {
-    double value = 0.0;                   ///< Physical value.
-    glm::dvec3 color{1.0, 1.0, 1.0};      ///< Unassociated display-encoded RGB in [0, 1].
-    double extinction = 0.0;              ///< tau per unit length, >= 0 and finite.
+    double value = 0.0;               ///< Physical value.
+    glm::dvec3 color{1.0, 1.0, 1.0};  ///< Unassociated display-encoded RGB in [0, 1].
+    double extinction = 0.0;          ///< tau per unit length, >= 0 and finite.
     bool operator==(const TransferPoint&) const = default;
 };
 
 /// Piecewise linear, at least one point, values not descending.
 struct TransferFunction1D {
     std::string name;
-    std::string unit;                     ///< Of the values: "HU", "" when unitless.
+    std::string unit;  ///< Of the values: "HU", "" when unitless.
     std::vector<TransferPoint> points;
     bool operator==(const TransferFunction1D&) const = default;
 };
 
 struct OpticalSample {
     glm::dvec3 color{0.0};
-    double extinction = 0.0;              ///< Per unit length.
+    double extinction = 0.0;  ///< Per unit length.
 };
 
-/// Errors: InvalidArgument naming the point: no points, more than 65536, descending or non-finite values, colour
-/// outside [0, 1], extinction negative or not finite.
+/// Errors: InvalidArgument, the message beginning with the JSON pointer below the function ("/points/3/value:
+/// ..."): no points, more than 65536, descending or non-finite values, colour outside [0, 1], extinction
+/// negative or not finite.
 [[nodiscard]] Result<void> validate(const TransferFunction1D& function);
 
 /// Evaluates at a physical value; NaN gives the first point. Precondition: validate() passed. O(log n).
 [[nodiscard]] OpticalSample evaluate(const TransferFunction1D& function, double value);
 
-/// A table of n >= 2 entries (RGB, extinction per unit length) at lo, ..., hi, both ends included, to be read with
-/// linear interpolation.
-[[nodiscard]] std::vector<glm::vec4> bakeTable(const TransferFunction1D& function, double lo, double hi, int n);
+/// A table of n >= 2 entries (RGB, extinction per unit length) at lo, ..., hi, both ends included, to be read
+/// with linear interpolation.
+[[nodiscard]] std::vector<glm::vec4> bakeTable(const TransferFunction1D& function, double lo, double hi,
+                                               int n);
 
-/// Grey ramp over a window with constant extinction above its lower end: a start for any modality.
+/// A start for any modality: grey rises from black at `lo` to white at `hi`, extinction from 0 to that of
+/// `opacityAtHi`; both stay constant outside. With lo == hi it is a step. Preconditions: lo <= hi,
+/// opacityAtHi in [0, 1].
 [[nodiscard]] TransferFunction1D rampFunction(double lo, double hi, double opacityAtHi);
 
 }  // namespace pellucid

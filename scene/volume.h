@@ -16,7 +16,8 @@
 
 namespace pellucid {
 
-/// How voxels are stored. 64-bit integers do not occur: they are narrowed on load (narrowIntegers), with the worst error said.
+/// How voxels are stored. 64-bit integers do not occur: they are narrowed on load (narrowIntegers), with the
+/// worst error said.
 enum class VoxelType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
 [[nodiscard]] std::size_t bytesPerComponent(VoxelType type);
@@ -35,7 +36,8 @@ struct ValueMapping {
     bool operator==(const ValueMapping&) const = default;
 };
 
-/// A display window as clinicians set it: physical values from level - width / 2 (black) to level + width / 2 (white).
+/// A display window as clinicians set it: physical values from level - width / 2 (black) to level + width / 2
+/// (white).
 struct Window {
     double level = 0.0;
     double width = 1.0;  ///< > 0.
@@ -57,9 +59,9 @@ struct ValueRange {
 
 /// What else is known of a volume; nothing here changes how voxels are placed or valued.
 struct VolumeInfo {
-    std::string name;                   ///< For people: a file or series name; never patient data.
-    std::string modality;               ///< DICOM modality ("CT", "MR") or empty.
-    std::vector<NamedWindow> windows;   ///< Windows the file recommends, the first is the default.
+    std::string name;                  ///< For people: a file or series name; never patient data.
+    std::string modality;              ///< DICOM modality ("CT", "MR") or empty.
+    std::vector<NamedWindow> windows;  ///< Windows the file recommends, the first is the default.
     std::vector<Warning> warnings;
     std::vector<std::pair<std::string, std::string>> facts;  ///< Label and text for `pellucid info`.
 };
@@ -69,10 +71,11 @@ struct VolumeInfo {
 class Volume {
 public:
     /// Checks that the voxels fill the grid exactly and computes the value range.
-    /// Errors: InvalidArgument (grid, components outside 1..4, slope zero or not finite), Corrupt (byte count).
+    /// Errors: InvalidArgument (grid, components outside 1..4, slope zero or not finite), Corrupt (byte
+    /// count).
     static Result<std::shared_ptr<const Volume>> make(Grid grid, VoxelType type, int components,
-                                                      std::vector<std::byte> voxels, ValueMapping mapping = {},
-                                                      VolumeInfo info = {});
+                                                      std::vector<std::byte> voxels,
+                                                      ValueMapping mapping = {}, VolumeInfo info = {});
 
     [[nodiscard]] const Grid& grid() const { return m_grid; }
     [[nodiscard]] VoxelType type() const { return m_type; }
@@ -80,18 +83,25 @@ public:
     [[nodiscard]] const ValueMapping& mapping() const { return m_mapping; }
     [[nodiscard]] const VolumeInfo& info() const { return m_info; }
     [[nodiscard]] std::span<const std::byte> bytes() const { return m_voxels; }
-    [[nodiscard]] std::uint64_t voxelCount() const { return m_voxels.size() / (bytesPerComponent(m_type) * m_components); }
+    [[nodiscard]] std::uint64_t voxelCount() const {
+        return m_voxels.size() / (bytesPerComponent(m_type) * m_components);
+    }
 
     /// Smallest and largest finite stored value over all voxels of one component; {0, 0} when none is finite.
-    [[nodiscard]] ValueRange storedRange(int component = 0) const { return m_storedRange[static_cast<std::size_t>(component)]; }
+    [[nodiscard]] ValueRange storedRange(int component = 0) const {
+        return m_storedRange[static_cast<std::size_t>(component)];
+    }
     /// The same as physical values, lo <= hi also when the slope is negative.
     [[nodiscard]] ValueRange physicalRange(int component = 0) const;
-    /// Voxel components that are NaN or infinite. The renderer and the reference draw them as the smallest finite stored value.
+    /// Voxel components that are NaN or infinite. The renderer and the reference draw them as the smallest
+    /// finite stored value.
     [[nodiscard]] std::uint64_t nonFiniteCount() const { return m_nonFinite; }
 
     /// Stored value as it is in the file (possibly NaN). Precondition: the index lies in the grid.
     [[nodiscard]] double stored(glm::ivec3 index, int component = 0) const;
-    [[nodiscard]] double physical(glm::ivec3 index, int component = 0) const { return m_mapping.physical(stored(index, component)); }
+    [[nodiscard]] double physical(glm::ivec3 index, int component = 0) const {
+        return m_mapping.physical(stored(index, component));
+    }
 
 private:
     Volume() = default;
@@ -111,23 +121,32 @@ using VolumePtr = std::shared_ptr<const Volume>;
 template <class F>
 decltype(auto) visitVoxels(const Volume& volume, F&& f) {
     const auto typed = [&]<class T>(T) {
-        return std::span<const T>(reinterpret_cast<const T*>(volume.bytes().data()), volume.bytes().size() / sizeof(T));
+        return std::span<const T>(reinterpret_cast<const T*>(volume.bytes().data()),
+                                  volume.bytes().size() / sizeof(T));
     };
     switch (volume.type()) {
-        case VoxelType::Int8: return f(typed(std::int8_t{}));
-        case VoxelType::UInt8: return f(typed(std::uint8_t{}));
-        case VoxelType::Int16: return f(typed(std::int16_t{}));
-        case VoxelType::UInt16: return f(typed(std::uint16_t{}));
-        case VoxelType::Int32: return f(typed(std::int32_t{}));
-        case VoxelType::UInt32: return f(typed(std::uint32_t{}));
-        case VoxelType::Float32: return f(typed(float{}));
-        case VoxelType::Float64: break;
+        case VoxelType::Int8:
+            return f(typed(std::int8_t{}));
+        case VoxelType::UInt8:
+            return f(typed(std::uint8_t{}));
+        case VoxelType::Int16:
+            return f(typed(std::int16_t{}));
+        case VoxelType::UInt16:
+            return f(typed(std::uint16_t{}));
+        case VoxelType::Int32:
+            return f(typed(std::int32_t{}));
+        case VoxelType::UInt32:
+            return f(typed(std::uint32_t{}));
+        case VoxelType::Float32:
+            return f(typed(float{}));
+        case VoxelType::Float64:
+            break;
     }
     return f(typed(double{}));
 }
 
-/// The result of narrowing 64-bit integers: int32 or uint32 when every value fits (exact), else float64 with the
-/// largest rounding error in stored units.
+/// The result of narrowing 64-bit integers: int32 or uint32 when every value fits (exact), else float64 with
+/// the largest rounding error in stored units.
 struct NarrowedIntegers {
     VoxelType type = VoxelType::Int32;
     std::vector<std::byte> voxels;

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/names.h"
+
+#include <array>
+
+#include "scene/scene.h"
+
+namespace pellucid {
+
+template <>
+std::span<const EnumName<AnatomicalView>> enumNames<AnatomicalView>() {
+    using enum AnatomicalView;
+    static constexpr std::array<EnumName<AnatomicalView>, 6> kNames{{{Anterior, "anterior"},
+                                                                     {Posterior, "posterior"},
+                                                                     {Left, "left"},
+                                                                     {Right, "right"},
+                                                                     {Superior, "superior"},
+                                                                     {Inferior, "inferior"}}};
+    return kNames;
+}
+
+template <>
+std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>() {
+    using enum CompositingSpace;
+    static constexpr std::array<EnumName<CompositingSpace>, 2> kNames{
+        {{Display, "display"}, {Linear, "linear"}}};
+    return kNames;
+}
+
+template <>
+std::span<const EnumName<Filter>> enumNames<Filter>() {
+    using enum Filter;
+    static constexpr std::array<EnumName<Filter>, 4> kNames{{{Nearest, "nearest"},
+                                                             {Trilinear, "trilinear"},
+                                                             {TricubicBSpline, "tricubic-bspline"},
+                                                             {CatmullRom, "catmull-rom"}}};
+    return kNames;
+}
+
+template <>
+std::span<const EnumName<LightKind>> enumNames<LightKind>() {
+    using enum LightKind;
+    static constexpr std::array<EnumName<LightKind>, 3> kNames{
+        {{Headlight, "headlight"}, {Directional, "directional"}, {Point, "point"}}};
+    return kNames;
+}
+
+template <>
+std::span<const EnumName<Mode>> enumNames<Mode>() {
+    using enum Mode;
+    static constexpr std::array<EnumName<Mode>, 9> kNames{{{Composite, "composite"},
+                                                           {Mip, "mip"},
+                                                           {MinIp, "minip"},
+                                                           {Average, "average"},
+                                                           {XRay, "xray"},
+                                                           {Emission, "emission"},
+                                                           {FirstHit, "first-hit"},
+                                                           {Isosurface, "isosurface"},
+                                                           {Slice, "slice"}}};
+    return kNames;
+}
+
+template <>
+std::span<const EnumName<Projection>> enumNames<Projection>() {
+    using enum Projection;
+    static constexpr std::array<EnumName<Projection>, 2> kNames{
+        {{Perspective, "perspective"}, {Orthographic, "orthographic"}}};
+    return kNames;
+}
+
+template <>
+std::span<const EnumName<XRayDisplay>> enumNames<XRayDisplay>() {
+    using enum XRayDisplay;
+    static constexpr std::array<EnumName<XRayDisplay>, 2> kNames{
+        {{Transmittance, "transmittance"}, {Opacity, "opacity"}}};
+    return kNames;
+}
+
+}  // namespace pellucid

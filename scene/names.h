@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace pellucid {
+
+enum class AnatomicalView;
+enum class CompositingSpace;
+enum class Filter;
+enum class LightKind;
+enum class Mode;
+enum class Projection;
+enum class XRayDisplay;
+
+/// An enumerator and its name in the JSON form and on the command line: "first-hit", "catmull-rom".
+template <class E>
+struct EnumName {
+    E value;
+    const char* name;
+};
+
+/// Every enumerator of E in the order of its declaration; this is the one place where their names are
+/// written. Defined for the seven enumerations above.
+template <class E>
+[[nodiscard]] std::span<const EnumName<E>> enumNames();
+
+template <class E>
+requires std::is_enum_v<E>
+[[nodiscard]] const char* name(E value) {
+    for (const auto& entry : enumNames<E>())
+        if (entry.value == value) return entry.name;
+    return "";
+}
+
+template <class E>
+[[nodiscard]] std::optional<E> enumFromName(std::string_view text) {
+    for (const auto& entry : enumNames<E>())
+        if (entry.name == text) return entry.value;
+    return std::nullopt;
+}
+
+template <>
+std::span<const EnumName<AnatomicalView>> enumNames<AnatomicalView>();
+template <>
+std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>();
+template <>
+std::span<const EnumName<Filter>> enumNames<Filter>();
+template <>
+std::span<const EnumName<LightKind>> enumNames<LightKind>();
+template <>
+std::span<const EnumName<Mode>> enumNames<Mode>();
+template <>
+std::span<const EnumName<Projection>> enumNames<Projection>();
+template <>
+std::span<const EnumName<XRayDisplay>> enumNames<XRayDisplay>();
+
+}  // namespace pellucid

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "scene/scene.h"
+#include "scene/utf8.h"
+
+namespace pellucid {
+
+namespace {
+
+constexpr int kMaxComponents = 4;
+constexpr int kMaxPicturePixels = 16384;
+
+/// Collects the first complaint; the checks read as a list of what is allowed.
+class Checker {
+public:
+    void require(bool good, std::string_view pointer, double found, std::string_view allowed) {
+        if (good || !m_result) return;
+        m_result = fail(ErrorCode::InvalidArgument,
+                        fmt::format("{}: found {}, allowed is {}", pointer, found, allowed));
+    }
+    void positive(double value, std::string_view pointer) {
+        require(std::isfinite(value) && value > 0.0, pointer, value, "a finite number above 0");
+    }
+    void notNegative(double value, std::string_view pointer) {
+        require(std::isfinite(value) && value >= 0.0, pointer, value, "a finite number >= 0");
+    }
+    void finite(double value, std::string_view pointer) {
+        require(std::isfinite(value), pointer, value, "a finite number");
+    }
+    void finite(glm::dvec3 value, std::string_view pointer) {
+        for (int i = 0; i < 3; ++i) finite(value[i], fmt::format("{}/{}", pointer, i));
+    }
+    void text(std::string_view value, std::string_view pointer) {
+        if (isUtf8(value) || !m_result) return;
+        m_result = fail(ErrorCode::InvalidArgument,
+                        fmt::format("{}: found bytes that are not UTF-8, allowed is UTF-8 text", pointer));
+    }
+    /// The outcome of a part whose messages begin with a pointer below it.
+    void part(Result<void> result, std::string_view pointer) {
+        if (result || !m_result) return;
+        result.error().message.insert(0, pointer);
+        m_result = std::move(result);
+    }
+    Result<void> result() { return std::move(m_result); }
+
+private:
+    Result<void> m_result;
+};
+
+void checkItem(const VolumeItem& item, const std::string& at, Checker& check) {
+    check.text(item.name, at + "/name");
+    check.text(item.source, at + "/source");
+    check.require(item.component >= 0 && item.component < kMaxComponents, at + "/component", item.component,
+                  "an integer in [0, 3]");
+    if (item.transferFunction) {
+        check.text(item.transferFunction->name, at + "/transferFunction/name");
+        check.text(item.transferFunction->unit, at + "/transferFunction/unit");
+        check.part(validate(*item.transferFunction), at + "/transferFunction");
+    }
+    if (item.window) {
+        check.finite(item.window->level, at + "/window/level");
+        check.positive(item.window->width, at + "/window/width");
+    }
+    if (item.isovalue) check.finite(*item.isovalue, at + "/isovalue");
+}
+
+void checkLight(const Light& light, const std::string& at, Checker& check) {
+    for (int c = 0; c < 3; ++c) check.notNegative(light.color[c], fmt::format("{}/color/{}", at, c));
+    check.notNegative(light.intensity, at + "/intensity");
+    check.finite(light.directionMm, at + "/directionMm");
+    check.finite(light.positionMm, at + "/positionMm");
+    check.require(light.directionMm != glm::dvec3(0.0), at + "/directionMm", 0.0,
+                  "a direction other than [0, 0, 0]");
+}
+
+}  // namespace
+
+Result<void> validate(const Scene& scene) {
+    Checker check;
+    for (std::size_t i = 0; i < scene.volumes.size(); ++i)
+        checkItem(scene.volumes[i], fmt::format("/volumes/{}", i), check);
+    if (scene.lights)
+        for (std::size_t i = 0; i < scene.lights->size(); ++i)
+            checkLight((*scene.lights)[i], fmt::format("/lights/{}", i), check);
+    check.notNegative(scene.material.ambient, "/material/ambient");
+    check.notNegative(scene.material.diffuse, "/material/diffuse");
+    check.notNegative(scene.material.specular, "/material/specular");
+    check.positive(scene.material.shininess, "/material/shininess");
+    check.part(validate(scene.camera), "/camera");
+    check.require(scene.hitOpacity > 0.0 && scene.hitOpacity <= 1.0, "/hitOpacity", scene.hitOpacity,
+                  "a number in (0, 1]");
+    if (scene.unitLengthMm) check.positive(*scene.unitLengthMm, "/unitLengthMm");
+    check.notNegative(scene.densityScale, "/densityScale");
+    check.positive(scene.quality.stepVoxels, "/quality/stepVoxels");
+    if (scene.quality.stepMm) check.positive(*scene.quality.stepMm, "/quality/stepMm");
+    check.require(scene.quality.earlyTermination >= 0.0 && scene.quality.earlyTermination < 1.0,
+                  "/quality/earlyTermination", scene.quality.earlyTermination, "a number in [0, 1)");
+    for (int i = 0; i < 2; ++i)
+        check.require(scene.picture.size[i] >= 1 && scene.picture.size[i] <= kMaxPicturePixels,
+                      fmt::format("/picture/size/{}", i), scene.picture.size[i], "an integer in [1, 16384]");
+    for (int c = 0; c < 3; ++c)
+        check.require(scene.picture.background[c] >= 0.0 && scene.picture.background[c] <= 1.0,
+                      fmt::format("/picture/background/{}", c), scene.picture.background[c],
+                      "a number in [0, 1]");
+    return check.result();
+}
+
+}  // namespace pellucid
