@@ -10,25 +10,26 @@ namespace pellucid::accuracy {
 
 /// A reference picture and how converged it is.
 struct Reference {
-    ImageF image;              ///< Same conventions as the renderer's.
-    double reachedBound = 0.0; ///< Largest difference of the last two pictures, in display units.
-    double stepMm = 0.0;       ///< Of the last picture.
+    ImageF image;               ///< Same conventions as the renderer's.
+    double reachedBound = 0.0;  ///< Largest difference of the last two pictures, in display units.
+    double stepMm = 0.0;        ///< Of the last picture.
 };
 
 struct ReferenceOptions {
-    double bound = 1e-5;       ///< Asked for: halve the step until two successive pictures differ by less, anywhere.
+    double bound =
+        1e-5;  ///< Asked for: halve the step until two successive pictures differ by less, anywhere.
     int maxHalvings = 8;
     Progress progress;
 };
 
-/// The same optical model as the renderer, integrated on the CPU in double precision by independent code (no shared
-/// sampling, table or shader): transfer function evaluated exactly, no early termination, all cores.
+/// The same optical model as the renderer, integrated on the CPU in double precision by independent code (no
+/// shared sampling, table or shader): transfer function evaluated exactly, no early termination, all cores.
 /// Starts from the scene's own step. Modes: all. Errors: as makePlan, Cancelled.
 [[nodiscard]] Result<Reference> referencePicture(const Scene& scene, const std::vector<VolumePtr>& volumes,
                                                  const ReferenceOptions& options = {});
 
 /// One picture at a fixed step, for convergence studies.
-[[nodiscard]] Result<ImageF> referenceAtStep(const Scene& scene, const std::vector<VolumePtr>& volumes, double stepMm,
-                                             const Progress& progress = {});
+[[nodiscard]] Result<ImageF> referenceAtStep(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                             double stepMm, const Progress& progress = {});
 
 }  // namespace pellucid::accuracy
