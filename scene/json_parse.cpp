@@ -59,6 +59,10 @@ public:
             what.remove_prefix(start);
         else if (const auto bracket = what.find("] "); bracket != what.npos)
             what.remove_prefix(bracket + 2);
+        std::string shown(what);
+        if (!isUtf8(shown))
+            std::replace_if(
+                shown.begin(), shown.end(), [](char c) { return (c & 0x80) != 0; }, '?');
         m_error = Error{
             ErrorCode::Corrupt, fmt::format("not JSON at line {}, column {}: {}", line, column, shown), {}};
         return false;
