@@ -77,7 +77,7 @@ std::span<const double> withoutOutliers(const std::vector<double>& sorted) {
 
 TransferFunction1D defaultTransferFunction(const Volume& volume, int component) {
     if (isHounsfield(volume))
-        if (const VolumePreset* preset = findVolumePreset("CT bone")) return preset->function;
+        if (const VolumePreset* preset = findVolumePreset("CT general")) return preset->function;
     const std::vector<double> sorted = sortedSample(volume, component);
     const auto values = withoutOutliers(sorted);
     const std::size_t start = upperClassStart(values);

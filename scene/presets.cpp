@@ -3,22 +3,56 @@
 #include "scene/presets.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "embedded/presetFiles.h"
+#include "scene/check.h"
+#include "scene/json_parse.h"
+#include "scene/json_reader.h"
+#include "scene/scene_json_parts.h"
 
 namespace pellucid {
 
+namespace {
+
+using nlohmann::json;
+
+VolumePreset readPreset(const json& value, const std::string& pointer, JsonComplaints& complaints) {
+    const JsonObject object(value, pointer, complaints,
+                            {"name", "modality", "source", "material", "transferFunction"});
+    VolumePreset preset;
+    object.read("name", preset.name);
+    object.read("modality", preset.modality);
+    if (const json* material = object.find("material"))
+        preset.material = readMaterial(*material, object.pointerTo("material"), complaints);
+    if (const json* function = object.find("transferFunction"))
+        preset.function = readTransferFunction(*function, object.pointerTo("transferFunction"), complaints);
+    preset.function.name = preset.name;
+    if (auto valid = validate(preset.function); !valid)
+        complaints.add(object.pointerTo("transferFunction"), valid.error().message, "a valid function");
+    else
+        preset.function = followingOpacity(preset.function);
+    return preset;
+}
+
+std::vector<VolumePreset> readPresets() {
+    const Result<json> value = parseJson(embedded::presetFiles().at("volume_presets.json"));
+    // The file is compiled in, so that a fault in it is a programmer's mistake.
+    if (!value) contractBroken("volume_presets.json", 1, value.error().text());
+    JsonComplaints complaints;
+    std::vector<VolumePreset> presets;
+    const JsonObject object(*value, "", complaints, {"about", "presets"});
+    object.forEach("presets", [&](const json& preset, const std::string& pointer) {
+        presets.push_back(readPreset(preset, pointer, complaints));
+    });
+    if (complaints.any()) contractBroken("volume_presets.json", 1, complaints.first()->text());
+    return presets;
+}
+
+}  // namespace
+
 const std::vector<VolumePreset>& volumePresets() {
-    const auto tau = extinctionFromOpacity;
-    static const std::vector<VolumePreset> kPresets{
-        {"CT bone",
-         "CT",
-         {"CT bone",
-          "HU",
-          {{-16.4458, {0.729412, 0.254902, 0.301961}, 0.0},
-           {641.385, {0.905882, 0.815686, 0.552941}, tau(0.715686)},
-           {3071.0, {1, 1, 1}, tau(0.705882)}}},
-         {0.1, 0.9, 0.2, 10.0}}};
+    static const std::vector<VolumePreset> kPresets = readPresets();
     return kPresets;
 }
 

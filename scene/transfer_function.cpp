@@ -22,6 +22,35 @@ double fractionBetween(double a, double b, double x) {
     return std::isfinite(span) ? (x - a) / span : (x / 2 - a / 2) / (b / 2 - a / 2);
 }
 
+/// Largest |opacity of the extinction-linear segment - opacity-linear segment| between two extinctions. With
+/// t(s) = t0 + d s the difference 1 - exp(-t(s)) - (a0 + (a1 - a0) s) vanishes at both ends and has its only
+/// extremum where d exp(-t(s)) = a1 - a0.
+double segmentDeviation(double t0, double t1) {
+    const double d = t1 - t0;
+    const double a0 = opacityFromExtinction(t0), a1 = opacityFromExtinction(t1);
+    if (d == 0.0 || a0 == a1) return 0.0;
+    const double s = std::clamp((std::log(d / (a1 - a0)) - t0) / d, 0.0, 1.0);
+    return std::abs(opacityFromExtinction(t0 + d * s) - std::lerp(a0, a1, s));
+}
+
+/// Appends the segment from a to b without a, halved in value and opacity until it is straight enough.
+void appendFollowing(const TransferPoint& a, const TransferPoint& b, double bound, int depth,
+                     std::vector<TransferPoint>& points) {
+    constexpr int kMaxDepth = 12;
+    TransferPoint middle;
+    middle.value = a.value / 2 + b.value / 2;
+    const bool divides = middle.value > a.value && middle.value < b.value;
+    if (divides && depth < kMaxDepth && segmentDeviation(a.extinction, b.extinction) > bound) {
+        middle.color = (a.color + b.color) / 2.0;
+        middle.extinction = extinctionFromOpacity(
+            (opacityFromExtinction(a.extinction) + opacityFromExtinction(b.extinction)) / 2);
+        appendFollowing(a, middle, bound, depth + 1, points);
+        appendFollowing(middle, b, bound, depth + 1, points);
+    } else {
+        points.push_back(b);
+    }
+}
+
 }  // namespace
 
 double extinctionFromOpacity(double alpha) {
@@ -99,6 +128,15 @@ TransferFunction1D rampFunction(double lo, double hi, double opacityAtHi) {
     function.name = "ramp";
     function.points = {{lo, glm::dvec3(0.0), 0.0}, {hi, glm::dvec3(1.0), extinctionFromOpacity(opacityAtHi)}};
     return function;
+}
+
+TransferFunction1D followingOpacity(const TransferFunction1D& function, double bound) {
+    PELLUCID_CHECK(bound > 0.0);
+    TransferFunction1D result = function;
+    result.points.resize(1);
+    for (std::size_t i = 1; i < function.points.size(); ++i)
+        appendFollowing(function.points[i - 1], function.points[i], bound, 0, result.points);
+    return result;
 }
 
 }  // namespace pellucid

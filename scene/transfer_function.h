@@ -62,4 +62,11 @@ struct OpticalSample {
 /// opacityAtHi in [0, 1].
 [[nodiscard]] TransferFunction1D rampFunction(double lo, double hi, double opacityAtHi);
 
+/// The function with points added between the given ones, so that its curve, linear in extinction, follows
+/// the one that is linear in opacity between the given points within `bound` of opacity everywhere. For
+/// functions that come from programs where opacity is what is linear. Preconditions: validate() passed, bound
+/// > 0.
+[[nodiscard]] TransferFunction1D followingOpacity(const TransferFunction1D& function,
+                                                  double bound = 0.5 / 255.0);
+
 }  // namespace pellucid
