@@ -29,10 +29,10 @@ struct DicomScan {
 /// True for DICOM by content ("DICM" at byte 128, or a plausible data set without preamble).
 [[nodiscard]] bool looksLikeDicom(const std::filesystem::path& file);
 
-/// Groups DICOM image files by series: a folder (recursively), a list of files, or a DICOMDIR with the files it
-/// names. Only what a volume can be made of gets into a series: one monochrome frame with pixels; the rest is
-/// left out with the reason. Errors: NotFound, Unreadable, Cancelled; Unsupported or Corrupt when not one file
-/// is left.
+/// Groups DICOM image files by series: a folder (recursively), a list of files, or a DICOMDIR with the files
+/// it names. Only what a volume can be made of gets into a series: one monochrome frame with pixels; the rest
+/// is left out with the reason. Errors: NotFound, Unreadable, Cancelled; Unsupported or Corrupt when not one
+/// file is left.
 [[nodiscard]] Result<DicomScan> scanDicom(const std::vector<std::filesystem::path>& paths,
                                           const Progress& progress = {});
 

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/dicom_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "io/dicom_header.h"
+#include "io/dicom_pixels.h"
+#include "io/text_scan.h"
+
+namespace pellucid::io {
+namespace {
+
+/// Of the whole work, how much reading the headers takes.
+constexpr double kHeaderShare = 0.2;
+
+tl::unexpected<Error> cancelled() {
+    return fail(ErrorCode::Cancelled, "loading was cancelled");
+}
+
+Result<std::vector<SliceHeader>> readHeaders(const DicomSeries& series, const Progress& progress) {
+    std::vector<SliceHeader> slices;
+    for (const std::filesystem::path& file : series.files) {
+        const double done = static_cast<double>(slices.size()) / static_cast<double>(series.files.size());
+        if (!goOn(progress, kHeaderShare * done, "reading DICOM headers")) return cancelled();
+        auto slice = readSliceHeader(file);
+        if (!slice) return tl::unexpected(slice.error());
+        slices.push_back(std::move(*slice));
+    }
+    return slices;
+}
+
+/// Decodes the slices, ordered as in the volume, on several threads. Progress is called on this thread only.
+class Decoder {
+public:
+    Decoder(std::span<const SliceHeader> slices, StoredForm form, std::span<std::byte> voxels)
+        : m_slices(slices), m_form(form), m_voxels(voxels), m_sliceBytes(voxels.size() / slices.size()) {}
+
+    Result<void> run(const Progress& progress) {
+        const std::size_t helpers =
+            std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), m_slices.size()) - 1;
+        {
+            std::vector<std::jthread> threads;
+            for (std::size_t i = 0; i < helpers; ++i) threads.emplace_back([this] { work({}); });
+            work(progress);
+        }
+        if (m_error) return tl::unexpected(*m_error);
+        return {};
+    }
+
+private:
+    void work(const Progress& progress) {
+        while (!m_stop) {
+            const std::size_t k = m_next++;
+            if (k >= m_slices.size()) return;
+            const double done = static_cast<double>(k) / static_cast<double>(m_slices.size());
+            if (!goOn(progress, kHeaderShare + (1.0 - kHeaderShare) * done, "decoding slices")) {
+                return stop(cancelled().value());
+            }
+            auto decoded = decodeSlice(m_slices[k], m_form, m_voxels.subspan(k * m_sliceBytes, m_sliceBytes));
+            if (!decoded) return stop(decoded.error());
+        }
+    }
+
+    void stop(const Error& error) {
+        const std::lock_guard lock(m_mutex);
+        if (!m_error) m_error = error;
+        m_stop = true;
+    }
+
+    std::span<const SliceHeader> m_slices;
+    StoredForm m_form;
+    std::span<std::byte> m_voxels;
+    std::size_t m_sliceBytes;
+    std::atomic<std::size_t> m_next{0};
+    std::atomic<bool> m_stop{false};
+    std::mutex m_mutex;
+    std::optional<Error> m_error;
+};
+
+/// Unit of the rescaled values: PS3.3 section C.11.1.1.2; CT without a type is in Hounsfield units (section
+/// C.8.2.1.1.2).
+std::string unitOf(const SliceHeader& slice) {
+    if (slice.rescaleType == "HU") return "HU";
+    if (slice.rescaleType == "PCT") return "%";
+    if (slice.rescaleType.empty() && slice.modality == "CT" && slice.hasRescale) return "HU";
+    return {};
+}
+
+void addWarnings(const std::vector<SliceHeader>& slices, const StoredForm& form, VolumeInfo& info) {
+    const auto warn = [&](std::string message) { info.warnings.push_back({std::move(message)}); };
+    const auto [low, high] = std::minmax_element(
+        slices.begin(), slices.end(),
+        [](const SliceHeader& a, const SliceHeader& b) { return std::abs(a.slope) < std::abs(b.slope); });
+    if (form.physical) {
+        warn(fmt::format(
+            "slope and intercept differ between slices (slope from {:.9g} to {:.9g}): the values were "
+            "converted to float32, rounded by up to 1 part in 16 million",
+            low->slope, high->slope));
+    }
+    if (slices.front().photometric == "MONOCHROME1") {
+        warn("MONOCHROME1: the file means large values to be shown dark; they are kept as they are");
+    }
+    if (slices.front().modality == "CT" && !slices.front().hasRescale) {
+        warn("a CT without rescale slope and intercept: its values are not in Hounsfield units");
+    }
+    for (const auto& lossy : {"Baseline", "Extended", "Spectral", "Progression", "JPEG-LS Lossy", "Near"}) {
+        if (slices.front().transferSyntax.find(lossy) == std::string::npos) continue;
+        warn(fmt::format("compressed with loss ({}): values are not as acquired",
+                         slices.front().transferSyntax));
+        break;
+    }
+}
+
+std::vector<std::pair<std::string, std::string>> factsOf(const std::vector<SliceHeader>& slices,
+                                                         const Grid& grid, const SeriesGeometry& geometry) {
+    const SliceHeader& first = slices.front();
+    const SlicePlacement& place = first.placement;
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"Series", first.description},
+        {"Files", fmt::format("{}", slices.size())},
+        {"Transfer syntax", first.transferSyntax},
+        {"Size", fmt::format("{} x {} x {}", grid.size.x, grid.size.y, grid.size.z)},
+        {"Spacing",
+         fmt::format("{:.6g} x {:.6g} mm in the slice, {:.6g} mm between slices along their normal",
+                     place.spacingMm.x, place.spacingMm.y, geometry.stepMm)},
+        {"Stored", fmt::format("{} of {} bits, {}", first.pixels.bitsStored, first.pixels.bitsAllocated,
+                               first.pixels.isSigned ? "signed" : "unsigned")},
+        {"Rescale", fmt::format("slope {:.9g}, intercept {:.9g}{}{}", first.slope, first.intercept,
+                                first.rescaleType.empty() ? "" : ", type ", first.rescaleType)}};
+    if (geometry.tiltDeg > 0.05)
+        facts.emplace_back("Gantry tilt", fmt::format("{:.2f} degrees", geometry.tiltDeg));
+    if (place.thicknessMm)
+        facts.emplace_back("Slice thickness", fmt::format("{:.6g} mm", *place.thicknessMm));
+    if (!first.paddingValue.empty()) facts.emplace_back("Pixel padding value", first.paddingValue);
+    return facts;
+}
+
+}  // namespace
+
+Result<VolumePtr> loadDicomSeries(const DicomSeries& series, const LoadOptions& options) {
+    if (series.files.empty())
+        return fail(ErrorCode::InvalidArgument, "a series without files cannot be loaded");
+    auto headers = readHeaders(series, options.progress);
+    if (!headers) return tl::unexpected(headers.error());
+    std::vector<SlicePlacement> placements;
+    for (const SliceHeader& header : *headers) placements.push_back(header.placement);
+    const auto geometry = placeSlices(placements);
+    if (!geometry) {
+        return fail(geometry.error(),
+                    fmt::format("series \"{}\"",
+                                series.description.empty() ? shown(series.uid, 64) : series.description));
+    }
+    std::vector<SliceHeader> slices;
+    for (const std::size_t index : geometry->order) slices.push_back(std::move((*headers)[index]));
+
+    const StoredForm form = storedForm(slices);
+    Grid grid;
+    grid.size = {placements.front().size, static_cast<int>(slices.size())};
+    grid.patientFromIndex = geometry->patientFromIndex;
+    const auto count = checkedVoxelCount(grid.size);
+    if (!count) return tl::unexpected(count.error());
+    const std::uint64_t width = bytesPerComponent(form.type);
+    if (*count > options.maxVoxelBytes / width) {
+        return fail(ErrorCode::TooLarge,
+                    fmt::format("{} x {} x {} voxels of {} bytes are more than the limit of {} bytes",
+                                grid.size.x, grid.size.y, grid.size.z, width, options.maxVoxelBytes));
+    }
+    // Each file was seen to be able to hold its slice, so this is bounded by what is on disk.
+    std::vector<std::byte> voxels(static_cast<std::size_t>(*count * width));
+    if (auto decoded = Decoder(slices, form, voxels).run(options.progress); !decoded)
+        return tl::unexpected(decoded.error());
+
+    VolumeInfo info;
+    const SliceHeader& middle =
+        slices[slices.size() / 2];  // Windows differ by slice in MR; the middle shows most.
+    info.name = series.description.empty() ? series.modality + " series" : series.description;
+    info.modality = middle.modality;
+    info.windows = middle.windows;
+    info.warnings = geometry->warnings;
+    addWarnings(slices, form, info);
+    info.warnings.insert(info.warnings.end(), series.warnings.begin(), series.warnings.end());
+    info.facts = factsOf(slices, grid, *geometry);
+    const ValueMapping mapping =
+        form.physical ? ValueMapping{1.0, 0.0, unitOf(slices.front())}
+                      : ValueMapping{slices.front().slope, slices.front().intercept, unitOf(slices.front())};
+    return Volume::make(grid, form.type, 1, std::move(voxels), mapping, std::move(info));
+}
+
+Result<VolumePtr> loadDicom(const std::vector<std::filesystem::path>& paths, const LoadOptions& options) {
+    constexpr double kScanShare = 0.2;
+    const Progress scanning = [&](double fraction, std::string_view what) {
+        return goOn(options.progress, kScanShare * fraction, what);
+    };
+    const auto scan = scanDicom(paths, scanning);
+    if (!scan) return tl::unexpected(scan.error());
+    const auto series = chooseSeries(*scan, options.seriesUid);
+    if (!series) return tl::unexpected(series.error());
+    LoadOptions rest = options;
+    rest.progress = [&](double fraction, std::string_view what) {
+        return goOn(options.progress, kScanShare + (1.0 - kScanShare) * fraction, what);
+    };
+    return loadDicomSeries(*series, rest);
+}
+
+}  // namespace pellucid::io
