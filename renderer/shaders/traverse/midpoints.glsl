@@ -1,0 +1,16 @@
+// Equal segments of `stepMm` from the entry; the last one is shortened to end at the exit. One sample in the middle of each
+// segment, with the segment's own length: second order in the step, and exact for a homogeneous medium.
+uniform float stepMm;
+
+void traverse(float tEnter, float tExit) {
+    vec3 start = ray.texOrigin + tEnter * ray.texDirection;
+    float extent = tExit - tEnter;
+    int count = max(int(ceil(extent / stepMm)), 1);
+    for (int i = 0; i < count; ++i) {
+        float from = float(i) * stepMm;
+        float lengthMm = max(min(stepMm, extent - from), 0.0);
+        float middle = from + 0.5 * lengthMm;
+        vec3 p = start + middle * ray.texDirection;
+        if (composeSample(reconstruct(p), p, tEnter + middle, lengthMm)) break;
+    }
+}
