@@ -77,6 +77,9 @@ struct DeviceLimits {
 [[nodiscard]] Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
                                     const DeviceLimits& limits = {});
 
+/// Size of the float render target of a picture: as wide, and as high as 128 MB allow. Larger pictures are drawn in bands.
+[[nodiscard]] glm::ivec2 targetSize(glm::ivec2 picture);
+
 [[nodiscard]] std::string planText(const Plan& plan);
 [[nodiscard]] nlohmann::ordered_json planJson(const Plan& plan);
 

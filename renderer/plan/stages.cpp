@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/plan/stages.h"
+
+#include <algorithm>
+#include <array>
+
+#include "scene/check.h"
+
+namespace pellucid::renderer {
+
+std::span<const StageVariant> stageTable() {
+    static const std::vector<StageVariant> table{
+        {"ray", "perspective",
+         {"rayBase", "rayAnchorRight", "rayAnchorUp", "rayRight", "rayUp", "rayForward", "rayNearFromAnchorMm"}, {}, {}},
+        {"ray", "orthographic", {"rayBase", "rayRight", "rayUp", "rayForward", "rayNearFromAnchorMm"}, {}, {}},
+        {"reconstruct", "nearest", {"volumeTexture"}, {}, {}},
+        {"reconstruct", "trilinear", {"volumeTexture"}, {}, {}},
+        {"reconstruct", "tricubic_bspline", {"volumeTexture", "volumeSize"}, {}, {}},
+        {"reconstruct", "catmull_rom", {"volumeTexture", "volumeSize"}, {}, {}},
+        {"classify", "tf1d", {"transferTable", "tableFromValue", "extinctionPerMm"}, {}, {}},
+        {"classify", "window", {"windowFromValue"}, {}, {}},
+        {"gradient", "central_difference", {"voxelStep", "gradientFromIndex", "gradientFloor"}, {}, {"reconstruct"}},
+        {"shade", "blinn_phong", {"material"}, {"Lights"}, {"gradient"}},
+        {"terminate", "transmittance", {"terminationTransmittance"}, {}, {}},
+        {"compose", "over", {}, {}, {"classify"}},
+        {"compose", "mip", {}, {}, {"classify"}},
+        {"compose", "minip", {}, {}, {"classify"}},
+        {"compose", "average", {}, {}, {"classify"}},
+        {"compose", "xray_opacity", {}, {}, {"classify"}},
+        {"compose", "xray_transmittance", {}, {}, {"classify"}},
+        {"compose", "emission", {}, {}, {"classify"}},
+        {"compose", "first_hit", {"hitExtinctionPerMm"}, {}, {"classify", "reconstruct"}},
+        {"compose", "isosurface", {"isovalue"}, {}, {"classify", "reconstruct"}},
+        {"compose", "slice", {}, {}, {"classify"}},
+        {"traverse", "midpoints", {"stepMm"}, {}, {"reconstruct", "compose"}},
+        {"traverse", "boundaries", {"stepMm"}, {}, {"reconstruct", "compose"}},
+        {"traverse", "plane", {"planeForward", "planeFromAnchorMm"}, {}, {"reconstruct", "compose"}},
+        {"encode", "srgb", {"transparentPicture"}, {}, {}},
+    };
+    return table;
+}
+
+const StageVariant& findVariant(std::string_view stage, std::string_view variant) {
+    const auto table = stageTable();
+    const auto found = std::find_if(table.begin(), table.end(), [&](const StageVariant& row) {
+        return stage == row.stage && variant == row.variant;
+    });
+    PELLUCID_CHECK(found != table.end());
+    return *found;
+}
+
+std::span<const char* const> engineUniforms() {
+    static constexpr std::array names{"pictureSize", "targetOrigin", "textureFromRender", "background"};
+    return names;
+}
+
+namespace {
+
+StageRow rayRow(Projection projection) {
+    if (projection == Projection::Orthographic) return {"ray", "orthographic", "the camera is orthographic"};
+    return {"ray", "perspective", "the camera is perspective"};
+}
+
+StageRow reconstructRow(Filter filter) {
+    switch (filter) {
+        case Filter::Nearest: return {"reconstruct", "nearest", "filter nearest"};
+        case Filter::Trilinear: return {"reconstruct", "trilinear", "filter trilinear"};
+        case Filter::TricubicBSpline: return {"reconstruct", "tricubic_bspline", "filter tricubic-bspline"};
+        case Filter::CatmullRom: break;
+    }
+    return {"reconstruct", "catmull_rom", "filter catmull-rom"};
+}
+
+StageRow composeRow(const Features& features) {
+    const std::string reason = fmt::format("mode {}", name(features.mode));
+    const auto row = [&](const char* variant) { return StageRow{"compose", variant, reason}; };
+    switch (features.mode) {
+        case Mode::Composite: return row("over");
+        case Mode::Mip: return row("mip");
+        case Mode::MinIp: return row("minip");
+        case Mode::Average: return row("average");
+        case Mode::XRay: return row(features.xray == XRayDisplay::Opacity ? "xray_opacity" : "xray_transmittance");
+        case Mode::Emission: return row("emission");
+        case Mode::FirstHit: return row("first_hit");
+        case Mode::Isosurface: return row("isosurface");
+        case Mode::Slice: break;
+    }
+    return row("slice");
+}
+
+StageRow traverseRow(Mode mode) {
+    if (mode == Mode::Slice) return {"traverse", "plane", "a slice is one sample a ray"};
+    if (mode == Mode::FirstHit || mode == Mode::Isosurface)
+        return {"traverse", "boundaries", "a surface is searched between samples"};
+    return {"traverse", "midpoints", "equal segments, each with its own length"};
+}
+
+}  // namespace
+
+StageChoice chooseStages(const Features& features) {
+    StageChoice choice;
+    auto& rows = choice.rows;
+    auto& leftOut = choice.leftOut;
+    rows.push_back(rayRow(features.projection));
+    rows.push_back(reconstructRow(features.filter));
+    if (usesTransferFunction(features.mode)) {
+        rows.push_back({"classify", "tf1d", "colours and extinction come from the transfer function"});
+    } else {
+        rows.push_back({"classify", "window", "the mode shows values through the window"});
+        leftOut.push_back({"transfer table", "the mode shows values through the window"});
+    }
+    if (features.lit) {
+        rows.push_back({"gradient", "central_difference", "shading needs a normal"});
+        rows.push_back({"shade", "blinn_phong", fmt::format("the scene has {} light{}", features.lights,
+                                                            features.lights == 1 ? "" : "s")});
+    } else {
+        const std::string reason = usesLights(features.mode) ? "the scene has no light" : "the mode is not lit";
+        for (const char* what : {"gradient", "shade", "lights"}) leftOut.push_back({what, reason});
+    }
+    if (features.earlyTermination) {
+        rows.push_back({"terminate", "transmittance", "rays stop when nothing behind can show"});
+    } else {
+        leftOut.push_back({"terminate", features.mode == Mode::Composite ? "the bound is 0: every ray goes on to its end"
+                                                                          : "the mode needs the whole ray"});
+    }
+    rows.push_back(composeRow(features));
+    rows.push_back(traverseRow(features.mode));
+    if (features.space == CompositingSpace::Linear) {
+        rows.push_back({"encode", "srgb", "colours are blended in linear light"});
+    } else {
+        leftOut.push_back({"encode", "colours are blended as they are shown"});
+    }
+    return choice;
+}
+
+}  // namespace pellucid::renderer

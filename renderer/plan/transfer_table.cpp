@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/plan/transfer_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace pellucid::renderer {
+
+namespace {
+
+constexpr int kMaxEntries = 16384;   // GL_MAX_TEXTURE_SIZE guaranteed by OpenGL 4.5
+constexpr double kWanted = 1.0 / 4096.0;
+
+OpticalSample interpolated(const OpticalSample& a, const OpticalSample& b, double f) {
+    return {a.color * (1.0 - f) + b.color * f, a.extinction * (1.0 - f) + b.extinction * f};
+}
+
+double difference(const OpticalSample& a, const OpticalSample& b, double stepInUnits) {
+    const double alphaA = -std::expm1(-a.extinction * stepInUnits);
+    const double alphaB = -std::expm1(-b.extinction * stepInUnits);
+    double worst = std::abs(alphaA - alphaB);
+    for (int channel = 0; channel < 3; ++channel)
+        worst = std::max(worst, std::abs(alphaA * a.color[channel] - alphaB * b.color[channel]));
+    return worst;
+}
+
+double worstError(const TransferFunction1D& function, double lo, double hi, int size, double stepInUnits) {
+    if (!(hi > lo)) return 0.0;
+    const double spacing = (hi - lo) / (size - 1);
+    double worst = 0.0;
+    for (const auto& point : function.points) {
+        if (point.value < lo || point.value > hi) continue;
+        const double x = (point.value - lo) / spacing;
+        const double i = std::min(std::floor(x), static_cast<double>(size - 2));
+        const auto table = interpolated(evaluate(function, lo + i * spacing), evaluate(function, lo + (i + 1) * spacing), x - i);
+        // The point itself covers both sides of a step: each point of a pair at one value is visited.
+        worst = std::max(worst, difference(table, {point.color, point.extinction}, stepInUnits));
+    }
+    return worst;
+}
+
+/// Sizes to try: powers of two, and the one that puts an entry on every integer (control points mostly are integers).
+std::vector<int> candidates(double lo, double hi) {
+    std::vector<int> sizes{256, 512, 1024, 2048, 4096, 8192, kMaxEntries};
+    if (lo == std::floor(lo) && hi == std::floor(hi) && hi - lo < kMaxEntries) {
+        const int onIntegers = static_cast<int>(hi - lo) + 1;
+        sizes.insert(std::upper_bound(sizes.begin(), sizes.end(), onIntegers), std::max(onIntegers, 2));
+    }
+    return sizes;
+}
+
+}  // namespace
+
+TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, double stepInUnits) {
+    TableLayout layout;
+    layout.lo = std::max(values.lo, function.points.front().value);
+    layout.hi = std::min(values.hi, function.points.back().value);
+    if (!(layout.hi > layout.lo)) {
+        // Nothing varies within reach: all values lie at, before or behind one point.
+        const double value = std::clamp(values.lo, function.points.front().value, function.points.back().value);
+        return {value, value, 2, 0.0};
+    }
+    double best = std::numeric_limits<double>::infinity();
+    for (int size : candidates(layout.lo, layout.hi)) {
+        const double error = worstError(function, layout.lo, layout.hi, size, stepInUnits);
+        if (error < best) {
+            best = error;
+            layout.size = size;
+            layout.worstError = error;
+        }
+        if (error <= kWanted) break;
+    }
+    return layout;
+}
+
+TransferFunction1D inCompositingSpace(const TransferFunction1D& function, CompositingSpace space) {
+    TransferFunction1D converted = function;
+    if (space == CompositingSpace::Display) return converted;
+    for (auto& point : converted.points)
+        for (int channel = 0; channel < 3; ++channel) point.color[channel] = linearFromDisplay(point.color[channel]);
+    return converted;
+}
+
+ValueRange reachableValues(ValueRange range, Filter filter) {
+    if (filter != Filter::CatmullRom) return range;
+    const double overshoot = 0.5 * (1.953125 - 1.0) * (range.hi - range.lo);
+    return {range.lo - overshoot, range.hi + overshoot};
+}
+
+}  // namespace pellucid::renderer
