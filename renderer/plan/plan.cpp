@@ -22,6 +22,9 @@ constexpr int kMaxLights = 256;   // 16 KB guaranteed for a uniform block leaves
 
 Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
     if (auto valid = validate(facts.grid); !valid) return tl::unexpected(valid.error());
+    if (!std::isfinite(facts.physicalRange.hi - facts.physicalRange.lo))
+        return fail(ErrorCode::Unsupported, fmt::format("the values {:g} ... {:g} span more than a float64 can hold", facts.physicalRange.lo,
+                                                        facts.physicalRange.hi));
     const auto size = facts.grid.size;
     const int largest = std::max({size.x, size.y, size.z});
     if (largest > limits.max3dTextureSize)
@@ -35,11 +38,7 @@ Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
 }
 
 void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
-    const auto& item = scene.volumes.front();
-    PELLUCID_CHECK(item.transferFunction.has_value() && scene.unitLengthMm.has_value());
-    const double stepInUnits = plan.stepMm / *scene.unitLengthMm * scene.densityScale;
-    const auto layout = layoutTable(inCompositingSpace(*item.transferFunction, plan.features.space),
-                                    reachableValues(facts.physicalRange, item.filter), stepInUnits);
+    const TableLayout layout = layoutFor(scene, plan, facts);
     plan.tableSize = layout.size;
     plan.tableWorstError = layout.worstError;
     plan.resources.push_back({"transfer table", "texture 1D RGBA32F", static_cast<std::uint64_t>(layout.size) * 16,
@@ -48,6 +47,14 @@ void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) 
 }
 
 }  // namespace
+
+TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
+    const auto& item = scene.volumes.front();
+    PELLUCID_CHECK(item.transferFunction.has_value() && scene.unitLengthMm.has_value());
+    const double stepInUnits = plan.stepMm / *scene.unitLengthMm * scene.densityScale;
+    return layoutTable(inCompositingSpace(*item.transferFunction, plan.features.space),
+                       reachableValues(facts.physicalRange, item.filter), stepInUnits);
+}
 
 VolumeFacts factsOf(const Volume& volume, int component) {
     return {volume.grid(), volume.type(), volume.physicalRange(component)};

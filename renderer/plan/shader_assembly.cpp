@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "renderer/plan/stages.h"
-#include "renderer_shaders.h"
+#include "embedded/renderer_shaders.h"
 #include "scene/check.h"
 
 namespace pellucid::renderer {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/image.h"
+
 namespace pellucid::renderer {
 
 namespace {

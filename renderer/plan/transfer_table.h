@@ -5,7 +5,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "scene/image.h"
+#include "renderer/plan/plan.h"
 #include "scene/scene.h"
 
 namespace pellucid::renderer {
@@ -23,6 +23,9 @@ struct TableLayout {
 /// The smallest table whose worst error is below 1/4096 (a sixteenth of a grey level), at most 16384 entries; among those too
 /// coarse, the best. `values` is the physical range the filter can produce.
 [[nodiscard]] TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, double stepInUnits);
+
+/// The same for a completed() scene with one volume.
+[[nodiscard]] TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts);
 
 /// The function with control-point colours decoded to light-linear when that is the compositing space.
 [[nodiscard]] TransferFunction1D inCompositingSpace(const TransferFunction1D& function, CompositingSpace space);

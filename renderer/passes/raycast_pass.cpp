@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/passes/raycast_pass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace pellucid::renderer {
+
+namespace {
+
+double msSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void setUniform(GLuint program, GLint location, const UniformValue& value) {
+    std::visit(
+        [&]<class T>(const T& v) {
+            if constexpr (std::is_same_v<T, int>)
+                glProgramUniform1i(program, location, v);
+            else if constexpr (std::is_same_v<T, float>)
+                glProgramUniform1f(program, location, v);
+            else if constexpr (std::is_same_v<T, glm::vec2>)
+                glProgramUniform2fv(program, location, 1, glm::value_ptr(v));
+            else if constexpr (std::is_same_v<T, glm::vec3>)
+                glProgramUniform3fv(program, location, 1, glm::value_ptr(v));
+            else if constexpr (std::is_same_v<T, glm::vec4>)
+                glProgramUniform4fv(program, location, 1, glm::value_ptr(v));
+            else if constexpr (std::is_same_v<T, glm::mat3>)
+                glProgramUniformMatrix3fv(program, location, 1, GL_FALSE, glm::value_ptr(v));
+            else
+                glProgramUniformMatrix4fv(program, location, 1, GL_FALSE, glm::value_ptr(v));
+        },
+        value);
+}
+
+/// Copies the target's rows (bottom first) into the picture (top first); `fromBottom` is the band's first row in the picture.
+void readBand(GLuint texture, glm::ivec2 band, glm::ivec2 targetSize, int fromBottom, ImageF& image) {
+    std::vector<glm::vec4> rows(static_cast<std::size_t>(targetSize.x) * static_cast<std::size_t>(targetSize.y));
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rows.size() * sizeof(glm::vec4)), rows.data());
+    for (int row = 0; row < band.y; ++row) {
+        const auto from = rows.begin() + static_cast<std::ptrdiff_t>(row) * targetSize.x;
+        std::copy_n(from, band.x, image.pixels.begin() + static_cast<std::ptrdiff_t>(image.size.y - 1 - fromBottom - row) * image.size.x);
+    }
+}
+
+}  // namespace
+
+RaycastPass::RaycastPass()
+    : m_noVertices(createVertexArray()),
+      m_linear(createSampler(GL_LINEAR)),
+      m_nearest(createSampler(GL_NEAREST)),
+      m_timer(createQuery(GL_TIME_ELAPSED)) {}
+
+void RaycastPass::bind(const RaycastInputs& inputs) const {
+    const GLuint program = inputs.program->id();
+    for (const auto& [name, value] : *inputs.uniforms)
+        if (const GLint location = inputs.program->location(name); location >= 0) setUniform(program, location, value);
+    glUseProgram(program);
+    glBindVertexArray(m_noVertices.id());
+    glBindTextureUnit(0, inputs.volumeTexture);
+    glBindSampler(0, inputs.interpolates ? m_linear.id() : m_nearest.id());
+    if (inputs.transferTable != 0) {
+        glBindTextureUnit(1, inputs.transferTable);
+        glBindSampler(1, m_linear.id());
+    }
+    if (inputs.lightsBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 0, inputs.lightsBlock);
+    glBindFramebuffer(GL_FRAMEBUFFER, inputs.target->framebuffer.id());
+    glViewport(0, 0, inputs.target->size.x, inputs.target->size.y);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_SCISSOR_TEST);
+}
+
+double RaycastPass::drawTile(const Tile& tile, FrameCost& cost) {
+    const auto start = std::chrono::steady_clock::now();
+    glScissor(tile.origin.x, tile.origin.y, tile.size.x, tile.size.y);
+    glBeginQuery(GL_TIME_ELAPSED, m_timer.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glEndQuery(GL_TIME_ELAPSED);
+    // Waiting here is what lets the next tile be sized by what this one took, and a cancel be heard.
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(m_timer.id(), GL_QUERY_RESULT, &nanoseconds);
+    const double ms = msSince(start);
+    cost.gpuMs += static_cast<double>(nanoseconds) * 1e-6;
+    cost.longestTileMs = std::max(cost.longestTileMs, ms);
+    ++cost.tiles;
+    return ms;
+}
+
+Result<ImageF> RaycastPass::draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options, double& pixelsHint,
+                                 FrameCost& cost) {
+    ImageF image{size, std::vector<glm::vec4>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))};
+    bind(inputs);
+    const glm::ivec2 targetSize = inputs.target->size;
+    const GLint originLocation = inputs.program->location("targetOrigin");
+    double wanted = pixelsHint;
+    for (int fromBottom = 0; fromBottom < size.y; fromBottom += targetSize.y) {
+        const glm::ivec2 band{size.x, std::min(targetSize.y, size.y - fromBottom)};
+        glProgramUniform2f(inputs.program->id(), originLocation, 0.0f, static_cast<float>(fromBottom));
+        for (TileCutter cutter(band); !cutter.done();) {
+            const Tile tile = cutter.next(wanted);
+            const double done = static_cast<double>(fromBottom + tile.origin.y) / size.y;
+            if (!goOn(options.progress, done, "drawing")) return fail(ErrorCode::Cancelled, "the drawing was cancelled");
+            const double ms = drawTile(tile, cost);
+            wanted = nextTilePixels(static_cast<double>(tile.size.x) * tile.size.y, ms, options.tileTargetMs);
+        }
+        readBand(inputs.target->color.id(), band, targetSize, fromBottom, image);
+    }
+    // The last tile is often a remainder, and a cheap one must not make the next picture begin with a slow tile.
+    pixelsHint = std::min(wanted, std::max(pixelsHint, 4096.0) * 2.0);
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+        return fail(ErrorCode::Gpu, fmt::format("OpenGL error {:#x} while drawing", error));
+    return image;
+}
+
+}  // namespace pellucid::renderer

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "renderer/frame.h"
+#include "renderer/gpu/gl_program.h"
+#include "renderer/passes/raycast_uniforms.h"
+#include "renderer/passes/tiles.h"
+#include "renderer/renderer.h"
+#include "renderer/resources/resource_store.h"
+
+namespace pellucid::renderer {
+
+/// What one picture is drawn with; all of it outlives the draw.
+struct RaycastInputs {
+    const GlProgram* program = nullptr;
+    const Uniforms* uniforms = nullptr;
+    GLuint volumeTexture = 0;
+    GLuint transferTable = 0;     ///< 0: none.
+    GLuint lightsBlock = 0;       ///< 0: none.
+    bool interpolates = true;     ///< The volume's sampler is linear.
+    const ResourceStore::Target* target = nullptr;
+};
+
+/// Draws pictures tile by tile, so that no draw holds the device for long.
+class RaycastPass {
+public:
+    RaycastPass();
+
+    /// A picture of `size` pixels. `cost` gains times and tiles. `pixelsHint` is the size of the first tile in pixels, and comes back
+    /// as a good one for the next picture of the same scene. Errors: Cancelled, Gpu.
+    Result<ImageF> draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options, double& pixelsHint, FrameCost& cost);
+
+private:
+    void bind(const RaycastInputs& inputs) const;
+    double drawTile(const Tile& tile, FrameCost& cost);
+
+    GlVertexArray m_noVertices;
+    GlSampler m_linear;
+    GlSampler m_nearest;
+    GlQuery m_timer;
+};
+
+}  // namespace pellucid::renderer

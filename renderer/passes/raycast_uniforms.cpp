@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/passes/raycast_uniforms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "scene/image.h"
+
+namespace pellucid::renderer {
+
+namespace {
+
+/// Distance in front of the eye of the plane that rays are anchored on. Near the volume, so that float positions on it are as exact
+/// as the volume is small, however far the eye; the eye itself when it is close, where the plane would be ill-defined.
+double anchorDistance(const RayFrame& frame, glm::dvec3 eyeFromCentre, double radius) {
+    const double alongForward = -glm::dot(eyeFromCentre, frame.forward);
+    if (frame.projection == Projection::Orthographic) return alongForward;
+    return alongForward > 2.0 * radius ? alongForward : 0.0;
+}
+
+void addRay(Uniforms& uniforms, const RayFrame& frame, const Grid& grid) {
+    const glm::dvec3 eye = frame.eye - centreMm(grid);
+    const double anchor = anchorDistance(frame, eye, radiusMm(grid));
+    const auto add = [&](const char* name, glm::dvec3 value) { uniforms.emplace_back(name, glm::vec3(value)); };
+    add("rayBase", eye + anchor * frame.forward);
+    add("rayAnchorRight", anchor * frame.right);
+    add("rayAnchorUp", anchor * frame.up);
+    add("rayRight", frame.right);
+    add("rayUp", frame.up);
+    add("rayForward", frame.forward);
+    add("planeForward", frame.forward);
+    uniforms.emplace_back("rayNearFromAnchorMm", static_cast<float>(frame.nearMm - anchor));
+    uniforms.emplace_back("planeFromAnchorMm", static_cast<float>(frame.targetDistanceMm - anchor));
+}
+
+void addGeometry(Uniforms& uniforms, const Grid& grid, double texelExtent) {
+    glm::dmat4 patientFromRender(1.0);
+    patientFromRender[3] = glm::dvec4(centreMm(grid), 1.0);
+    uniforms.emplace_back("textureFromRender", glm::mat4(textureFromPatient(grid) * patientFromRender));
+    uniforms.emplace_back("volumeSize", glm::vec3(grid.size));
+    uniforms.emplace_back("voxelStep", glm::vec3(1.0 / glm::dvec3(grid.size)));
+    glm::dmat3 gradient = glm::transpose(glm::dmat3(indexFromPatient(grid)));
+    double largest = 0.0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(gradient[column][row]));
+    uniforms.emplace_back("gradientFromIndex", glm::mat3(gradient / largest));
+    // Below a millionth of the value range a voxel the direction is rounding noise of the interpolation.
+    uniforms.emplace_back("gradientFloor", static_cast<float>(1e-6 * texelExtent));
+}
+
+void addTable(Uniforms& uniforms, const Scene& scene, const VolumeTexture& volume, const TransferTexture& table) {
+    const auto& layout = table.layout;
+    // Entry i stands at texture coordinate (i + 0.5) / size and at physical value lo + i (hi - lo) / (size - 1).
+    const double perPhysical = layout.hi > layout.lo ? (layout.size - 1.0) / layout.size / (layout.hi - layout.lo) : 0.0;
+    const double atLo = 0.5 / layout.size;
+    uniforms.emplace_back("tableFromValue",
+                          glm::vec2(volume.physicalPerTexel() * perPhysical,
+                                    (volume.physicalAtZero() - layout.lo) * perPhysical + atLo));
+    const double perMm = scene.densityScale / *scene.unitLengthMm;
+    uniforms.emplace_back("extinctionPerMm", static_cast<float>(perMm));
+    // Opacity of one unit length, as extinction per mm; a hair lower, so that a plateau at the threshold itself counts.
+    uniforms.emplace_back("hitExtinctionPerMm",
+                          static_cast<float>(extinctionFromOpacity(scene.hitOpacity) / *scene.unitLengthMm * (1.0 - 1e-6)));
+}
+
+/// The most light a point can send relative to its colour: what is hidden behind transmittance T changes the picture by at most T times this.
+double brightestReflection(const Scene& scene) {
+    if (!scene.lights || scene.lights->empty()) return 1.0;
+    double sum = scene.material.ambient;
+    for (const auto& light : *scene.lights)
+        sum += light.intensity * std::max({light.color.x, light.color.y, light.color.z}) *
+               (scene.material.diffuse + scene.material.specular);
+    return std::max(sum, 1.0);
+}
+
+}  // namespace
+
+Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid, const VolumeTexture& volume,
+                         const TransferTexture* table) {
+    Uniforms uniforms;
+    const auto& item = scene.volumes.front();
+    uniforms.emplace_back("pictureSize", glm::vec2(scene.picture.size));
+    addRay(uniforms, rayFrame(scene.camera, grid, scene.picture.size), grid);
+    addGeometry(uniforms, grid, volume.texelExtent);
+    uniforms.emplace_back("stepMm", static_cast<float>(plan.stepMm));
+    glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
+    const bool linear = plan.features.space == CompositingSpace::Linear;
+    if (linear)
+        for (int channel = 0; channel < 3; ++channel) background[channel] = linearFromDisplay(background[channel]);
+    uniforms.emplace_back("background", glm::vec3(background));
+    uniforms.emplace_back("transparentPicture", scene.picture.transparent ? 1 : 0);
+    uniforms.emplace_back("material", glm::vec4(scene.material.ambient, scene.material.diffuse, scene.material.specular,
+                                                scene.material.shininess));
+    if (usesWindow(scene.mode)) {
+        const auto& window = *item.window;
+        uniforms.emplace_back("windowFromValue",
+                              glm::vec2(volume.physicalPerTexel() / window.width,
+                                        (volume.physicalAtZero() - window.level) / window.width + 0.5));
+    }
+    if (scene.mode == Mode::Isosurface) uniforms.emplace_back("isovalue", static_cast<float>(volume.texelFromPhysical(*item.isovalue)));
+    if (table != nullptr) addTable(uniforms, scene, volume, *table);
+    // The sRGB curve is 12.92 times steeper in the dark than light-linear values.
+    const double steepest = (linear ? 12.92 : 1.0) * brightestReflection(scene);
+    uniforms.emplace_back("terminationTransmittance", static_cast<float>(plan.earlyTerminationBound / steepest));
+    uniforms.emplace_back("volumeTexture", 0);
+    uniforms.emplace_back("transferTable", 1);
+    return uniforms;
+}
+
+std::vector<glm::vec4> lightBlock(const Scene& scene, const Grid& grid) {
+    std::vector<glm::vec4> block;
+    const glm::dvec3 forward = axesOf(resolvedPose(scene.camera, grid, 1.0)).forward;
+    for (const auto& light : *scene.lights) {
+        block.emplace_back(glm::vec3(light.color * light.intensity), 1.0f);
+        switch (light.kind) {
+            case LightKind::Headlight: block.emplace_back(glm::vec3(-forward), 0.0f); break;
+            case LightKind::Directional: block.emplace_back(glm::vec3(-glm::normalize(light.directionMm)), 0.0f); break;
+            case LightKind::Point: block.emplace_back(glm::vec3(light.positionMm - centreMm(grid)), 1.0f); break;
+        }
+    }
+    return block;
+}
+
+}  // namespace pellucid::renderer

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+
+#include "renderer/error_estimate.h"
+#include "renderer/gpu/gl_state_scope.h"
+#include "renderer/gpu/gpu_context.h"
+#include "renderer/gpu/program_cache.h"
+#include "renderer/passes/raycast_pass.h"
+
+namespace pellucid::renderer {
+
+namespace {
+
+std::string glText(GLenum what) {
+    const auto* text = reinterpret_cast<const char*>(glGetString(what));
+    return text != nullptr ? text : "";
+}
+
+int glInteger(GLenum what) {
+    GLint value = 0;
+    glGetIntegerv(what, &value);
+    return value;
+}
+
+double msSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// First guess of pixels a tile: 10 ns a sample is slower than any device seen, so the first tile is never too long for one.
+double firstTilePixels(const Plan& plan, double targetMs) {
+    constexpr double kNsPerSample = 10.0;
+    const double fetches = plan.features.lit ? 7.0 : 1.0;
+    return std::max(targetMs * 1e6 / (kNsPerSample * fetches * std::max(plan.samplesPerRay, 1.0)), 64.0);
+}
+
+}  // namespace
+
+struct Renderer::State {
+    GpuContext context;   // first: everything else needs it to be destroyed
+    ProgramCache programs;
+    ResourceStore store;
+    RaycastPass raycast;
+    std::map<const GlProgram*, double> tilePixels;   // times samples a ray
+
+    explicit State(GpuContext own) : context(std::move(own)) {}
+    ~State() { context.makeCurrent(); }
+
+    Result<const GlProgram*> program(const Plan& plan);
+    Result<ImageF> drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume, const RenderOptions& options, FrameCost& cost);
+    DeviceLimits limits() const { return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes}; }
+};
+
+Result<const GlProgram*> Renderer::State::program(const Plan& plan) {
+    auto found = programs.find(assembleShader(plan.features, plan.stages));
+    if (!found) return tl::unexpected(found.error());
+    if (found->origin == ProgramCache::Found::Origin::Compiled) ++store.counts.programsCompiled;
+    if (found->origin == ProgramCache::Found::Origin::Disk) ++store.counts.programsFromDisk;
+    return found->program;
+}
+
+Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume, const RenderOptions& options,
+                                         FrameCost& cost) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto& item = scene.volumes.front();
+    auto program_ = program(plan);
+    if (!program_) return tl::unexpected(program_.error());
+    auto texture = store.volume(volume, item.component, options.progress);
+    if (!texture) return tl::unexpected(texture.error());
+    const TransferTexture* table = nullptr;
+    if (usesTransferFunction(scene.mode)) {
+        const TableLayout layout = layoutFor(scene, plan, factsOf(*volume, item.component));
+        table = &store.table(*item.transferFunction, plan.features.space, layout);
+    }
+    const Uniforms uniforms = raycastUniforms(scene, plan, volume->grid(), **texture, table);
+    auto target = store.target(targetSize(scene.picture.size));
+    if (!target) return tl::unexpected(target.error());
+    RaycastInputs inputs;
+    inputs.program = *program_;
+    inputs.uniforms = &uniforms;
+    inputs.volumeTexture = (*texture)->texture.id();
+    inputs.transferTable = table != nullptr ? table->texture.id() : 0;
+    inputs.lightsBlock = plan.features.lit ? store.lights(lightBlock(scene, volume->grid())).id() : 0;
+    inputs.interpolates = item.filter != Filter::Nearest;
+    inputs.target = *target;
+    cost.prepareMs += msSince(start);
+
+    // What a program's pixel costs is remembered per sample of its ray, since steps and volumes differ.
+    const double samples = std::max(plan.samplesPerRay, 1.0);
+    const auto known = tilePixels.find(*program_);
+    double pixels = known != tilePixels.end() ? known->second / samples : firstTilePixels(plan, options.tileTargetMs);
+    auto image = raycast.draw(inputs, scene.picture.size, options, pixels, cost);
+    if (!image) return image;
+    tilePixels[*program_] = pixels * samples;
+    ++store.counts.frames;
+    return image;
+}
+
+Renderer::Renderer(std::unique_ptr<State> state) : m_state(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::headless() {
+    auto context = GpuContext::headless();
+    if (!context) return tl::unexpected(context.error());
+    return Renderer(std::make_unique<State>(std::move(*context)));
+}
+
+Result<Renderer> Renderer::inCurrentContext() {
+    auto context = GpuContext::current();
+    if (!context) return tl::unexpected(context.error());
+    return Renderer(std::make_unique<State>(std::move(*context)));
+}
+
+Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>& volumes, const RenderOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    m_state->context.makeCurrent();
+    std::optional<GlStateScope> restore;
+    if (!m_state->context.isOwn()) restore.emplace();
+
+    const Scene full = completed(scene, volumes);
+    const auto planFor = [&](const Scene& wanted) {
+        std::vector<VolumeFacts> facts;
+        for (std::size_t i = 0; i < volumes.size(); ++i)
+            facts.push_back(factsOf(*volumes[i], i < wanted.volumes.size() ? wanted.volumes[i].component : 0));
+        return makePlan(wanted, facts, m_state->limits());
+    };
+    auto plan = planFor(full);
+    if (!plan) return tl::unexpected(plan.error());
+    Frame frame;
+    auto image = m_state->drawOnce(full, *plan, volumes.front(), options, frame.cost);
+    if (!image) return tl::unexpected(image.error());
+    frame.image = std::move(*image);
+    frame.cost.wallMs = msSince(start);
+    if (options.estimateError) {
+        const auto draw = [&](const Scene& probe) -> Result<ImageF> {
+            auto probePlan = planFor(probe);
+            if (!probePlan) return tl::unexpected(probePlan.error());
+            FrameCost unwatched;
+            return m_state->drawOnce(probe, *probePlan, volumes.front(), options, unwatched);
+        };
+        auto estimate = estimateError(full, *plan, draw);
+        if (!estimate) return tl::unexpected(estimate.error());
+        frame.error = std::move(*estimate);
+    }
+    frame.plan = std::move(*plan);
+    return frame;
+}
+
+const WorkCounts& Renderer::workCounts() const { return m_state->store.counts; }
+
+DeviceLimits Renderer::limits() const {
+    m_state->context.makeCurrent();
+    return m_state->limits();
+}
+
+Renderer::DeviceInfo Renderer::deviceInfo() const {
+    m_state->context.makeCurrent();
+    DeviceInfo info;
+    info.vendor = glText(GL_VENDOR);
+    info.renderer = glText(GL_RENDERER);
+    info.version = glText(GL_VERSION);
+    info.software = info.renderer.find("llvmpipe") != std::string::npos || info.renderer.find("softpipe") != std::string::npos ||
+                    info.renderer.find("swrast") != std::string::npos;
+    info.max3dTextureSize = glInteger(GL_MAX_3D_TEXTURE_SIZE);
+    info.maxUniformBlockBytes = glInteger(GL_MAX_UNIFORM_BLOCK_SIZE);
+    info.maxTextureSize = glInteger(GL_MAX_TEXTURE_SIZE);
+    return info;
+}
+
+}  // namespace pellucid::renderer

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/resources/resource_store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pellucid::renderer {
+
+namespace {
+
+// Four views with a preview and an error probe each use no more functions and sizes than this at a time.
+constexpr std::size_t kKeptTables = 16;
+constexpr std::size_t kKeptTargets = 8;
+
+/// Moves a found entry to the front; returns false when there is none.
+template <class T, class Matches>
+bool toFront(std::list<T>& entries, const Matches& matches) {
+    const auto found = std::find_if(entries.begin(), entries.end(), matches);
+    if (found == entries.end()) return false;
+    entries.splice(entries.begin(), entries, found);
+    return true;
+}
+
+bool sameLayout(const TableLayout& a, const TableLayout& b) { return a.lo == b.lo && a.hi == b.hi && a.size == b.size; }
+
+}  // namespace
+
+Result<const VolumeTexture*> ResourceStore::volume(const VolumePtr& volume, int component, const Progress& progress) {
+    m_volumes.remove_if([](const VolumeEntry& entry) { return entry.volume.expired(); });
+    for (const auto& entry : m_volumes)
+        if (entry.component == component && entry.volume.lock() == volume) return &entry.texture;
+    auto uploaded = uploadVolume(*volume, component, progress);
+    if (!uploaded) return tl::unexpected(uploaded.error());
+    ++counts.volumeUploads;
+    m_volumes.push_front({volume, component, std::move(*uploaded)});
+    return &m_volumes.front().texture;
+}
+
+const TransferTexture& ResourceStore::table(const TransferFunction1D& function, CompositingSpace space, const TableLayout& layout) {
+    const bool known = toFront(m_tables, [&](const TableEntry& entry) {
+        return entry.space == space && sameLayout(entry.table.layout, layout) && entry.function.points == function.points;
+    });
+    if (!known) {
+        m_tables.push_front({function, space, uploadTransferTable(inCompositingSpace(function, space), layout)});
+        ++counts.transferTables;
+        if (m_tables.size() > kKeptTables) m_tables.pop_back();
+    }
+    return m_tables.front().table;
+}
+
+const GlBuffer& ResourceStore::lights(const std::vector<glm::vec4>& block) {
+    if (m_lightBlock != block || !m_lights) {
+        const auto bytes = static_cast<GLsizeiptr>(block.size() * sizeof(glm::vec4));
+        m_lights = createBuffer();
+        glNamedBufferStorage(m_lights.id(), bytes, block.data(), 0);
+        m_lightBlock = block;
+    }
+    return m_lights;
+}
+
+Result<const ResourceStore::Target*> ResourceStore::target(glm::ivec2 size) {
+    if (toFront(m_targets, [&](const Target& target) { return target.size == size; })) return &m_targets.front();
+    Target target{createTexture(GL_TEXTURE_2D), createFramebuffer(), size};
+    glTextureStorage2D(target.color.id(), 1, GL_RGBA32F, size.x, size.y);
+    glNamedFramebufferTexture(target.framebuffer.id(), GL_COLOR_ATTACHMENT0, target.color.id(), 0);
+    if (glCheckNamedFramebufferStatus(target.framebuffer.id(), GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return fail(ErrorCode::Gpu, fmt::format("the driver cannot draw into a float picture of {} x {} pixels", size.x, size.y));
+    m_targets.push_front(std::move(target));
+    if (m_targets.size() > kKeptTargets) m_targets.pop_back();
+    return &m_targets.front();
+}
+
+}  // namespace pellucid::renderer

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <list>
+#include <memory>
+
+#include "renderer/renderer.h"
+#include "renderer/resources/transfer_texture.h"
+#include "renderer/resources/volume_texture.h"
+
+namespace pellucid::renderer {
+
+/// GPU objects by the values they depend on: an edit rebuilds what depends on it and nothing else. Volumes go when nobody
+/// else holds them, tables when newer ones have pushed them out.
+class ResourceStore {
+public:
+    [[nodiscard]] Result<const VolumeTexture*> volume(const VolumePtr& volume, int component, const Progress& progress);
+    [[nodiscard]] const TransferTexture& table(const TransferFunction1D& function, CompositingSpace space, const TableLayout& layout);
+    /// A std140 block with the scene's lights; kept while the lights are the same.
+    [[nodiscard]] const GlBuffer& lights(const std::vector<glm::vec4>& block);
+    /// The float target, kept while its size is the same.
+    struct Target {
+        GlTexture color;
+        GlFramebuffer framebuffer;
+        glm::ivec2 size{0, 0};
+    };
+    /// Errors: Gpu when the driver cannot draw into it.
+    [[nodiscard]] Result<const Target*> target(glm::ivec2 size);
+
+    WorkCounts counts;
+
+private:
+    struct VolumeEntry {
+        std::weak_ptr<const Volume> volume;
+        int component = 0;
+        VolumeTexture texture;
+    };
+    struct TableEntry {
+        TransferFunction1D function;
+        CompositingSpace space = CompositingSpace::Display;
+        TransferTexture table;
+    };
+    std::list<VolumeEntry> m_volumes;
+    std::list<TableEntry> m_tables;   // most recently used first
+    std::list<Target> m_targets;      // most recently used first
+    std::vector<glm::vec4> m_lightBlock;
+    GlBuffer m_lights;
+};
+
+}  // namespace pellucid::renderer
