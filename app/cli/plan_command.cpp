@@ -31,7 +31,7 @@ int run(const PlanArguments& arguments) {
     const Result<renderer::Plan> plan = renderer::makePlan(scene, facts);
     if (!plan) return report(plan.error());
     clearProgress();
-    fmt::print("{}\n", arguments.json ? renderer::planJson(*plan).dump(2) : renderer::planText(*plan));
+    fmt::print("{}", arguments.json ? renderer::planJson(*plan).dump(2) + "\n" : renderer::planText(*plan));
     return kExitOk;
 }
 

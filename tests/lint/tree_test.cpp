@@ -67,6 +67,7 @@ void expectNone(const Findings& findings) {
 
 TEST(LintTree, SeesTheProject) {
     EXPECT_GT(cpp().size(), 50u);
+    EXPECT_GT(shaders().size(), 10u);
 }
 
 TEST(LintTree, DependenciesRunDownwards) {
@@ -83,9 +84,9 @@ TEST(LintTree, SourcesAreShortAsciiAndLicensed) {
         for (const SourceFile& file : *files) {
             expectNone(checkAscii(file));
             expectNone(checkLength(file));
-            expectNone(checkHead(file));
         }
     }
+    for (const SourceFile& file : cpp()) expectNone(checkHead(file));
     for (const SourceFile& file : filesEndingIn({"CMakeLists.txt", ".cmake"})) expectNone(checkAscii(file));
 }
 
