@@ -21,7 +21,7 @@ struct ErrorEstimate {
 };
 
 struct FrameCost {
-    double gpuMs = 0.0;       ///< Sum of GPU timer queries over all tiles.
+    double gpuMs = 0.0;       ///< Sum over all tiles: GPU timer queries; on a software device the wall clock around each finished tile.
     double wallMs = 0.0;      ///< From the call to the pixels, uploads and compilation included.
     double prepareMs = 0.0;   ///< The part of wallMs before the first tile: compile, upload, tables.
     int tiles = 0;

@@ -24,6 +24,13 @@ std::string glText(GLenum what) {
     return text != nullptr ? text : "";
 }
 
+/// By the name Mesa's CPU rasterisers give themselves; OpenGL has no other way to ask.
+bool isSoftware(const std::string& device) {
+    for (const char* name : {"llvmpipe", "softpipe", "swrast"})
+        if (device.find(name) != std::string::npos) return true;
+    return false;
+}
+
 int glInteger(GLenum what) {
     GLint value = 0;
     glGetIntegerv(what, &value);
@@ -34,11 +41,11 @@ double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// First guess of pixels a tile: 10 ns a sample is slower than any device seen, so the first tile is never too long for one.
-double firstTilePixels(const Plan& plan, double targetMs) {
-    constexpr double kNsPerSample = 10.0;
-    const double fetches = plan.features.lit ? 7.0 : 1.0;
-    return std::max(targetMs * 1e6 / (kNsPerSample * fetches * std::max(plan.samplesPerRay, 1.0)), 64.0);
+/// First guess of a sample's cost: slower than any device seen, so that the first tile is not too long for one.
+double guessedMsPerSample(const Features& features) {
+    constexpr double kMsPerFetch = 10e-6;
+    const double fetchesPerValue = features.filter == Filter::CatmullRom ? 27.0 : features.filter == Filter::TricubicBSpline ? 8.0 : 1.0;
+    return kMsPerFetch * fetchesPerValue * (features.lit ? 7.0 : 1.0);
 }
 
 }  // namespace
@@ -48,9 +55,9 @@ struct Renderer::State {
     ProgramCache programs;
     ResourceStore store;
     RaycastPass raycast;
-    std::map<const GlProgram*, double> tilePixels;   // times samples a ray
+    std::map<const GlProgram*, double> msPerSample;   // of the most expensive tile last drawn
 
-    explicit State(GpuContext own) : context(std::move(own)) {}
+    explicit State(GpuContext own) : context(std::move(own)), raycast(isSoftware(glText(GL_RENDERER))) {}
     ~State() { context.makeCurrent(); }
 
     Result<const GlProgram*> program(const Plan& plan);
@@ -92,13 +99,13 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, c
     inputs.target = *target;
     cost.prepareMs += msSince(start);
 
-    // What a program's pixel costs is remembered per sample of its ray, since steps and volumes differ.
+    // Remembered per sample of the longest ray, since steps and volumes differ from picture to picture.
     const double samples = std::max(plan.samplesPerRay, 1.0);
-    const auto known = tilePixels.find(*program_);
-    double pixels = known != tilePixels.end() ? known->second / samples : firstTilePixels(plan, options.tileTargetMs);
-    auto image = raycast.draw(inputs, scene.picture.size, options, pixels, cost);
+    const auto known = msPerSample.find(*program_);
+    double msPerPixel = samples * (known != msPerSample.end() ? known->second : guessedMsPerSample(plan.features));
+    auto image = raycast.draw(inputs, scene.picture.size, options, msPerPixel, cost);
     if (!image) return image;
-    tilePixels[*program_] = pixels * samples;
+    msPerSample[*program_] = msPerPixel / samples;
     ++store.counts.frames;
     return image;
 }
@@ -168,8 +175,7 @@ Renderer::DeviceInfo Renderer::deviceInfo() const {
     info.vendor = glText(GL_VENDOR);
     info.renderer = glText(GL_RENDERER);
     info.version = glText(GL_VERSION);
-    info.software = info.renderer.find("llvmpipe") != std::string::npos || info.renderer.find("softpipe") != std::string::npos ||
-                    info.renderer.find("swrast") != std::string::npos;
+    info.software = isSoftware(info.renderer);
     info.max3dTextureSize = glInteger(GL_MAX_3D_TEXTURE_SIZE);
     info.maxUniformBlockBytes = glInteger(GL_MAX_UNIFORM_BLOCK_SIZE);
     info.maxTextureSize = glInteger(GL_MAX_TEXTURE_SIZE);

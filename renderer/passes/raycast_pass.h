@@ -25,11 +25,12 @@ struct RaycastInputs {
 /// Draws pictures tile by tile, so that no draw holds the device for long.
 class RaycastPass {
 public:
-    RaycastPass();
+    /// `softwareDevice`: the driver draws on the CPU.
+    explicit RaycastPass(bool softwareDevice);
 
-    /// A picture of `size` pixels. `cost` gains times and tiles. `pixelsHint` is the size of the first tile in pixels, and comes back
-    /// as a good one for the next picture of the same scene. Errors: Cancelled, Gpu.
-    Result<ImageF> draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options, double& pixelsHint, FrameCost& cost);
+    /// A picture of `size` pixels. `cost` gains times and tiles. `msPerPixel` is what a pixel may cost at worst, and comes back as
+    /// measured. Errors: Cancelled, Gpu.
+    Result<ImageF> draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options, double& msPerPixel, FrameCost& cost);
 
 private:
     void bind(const RaycastInputs& inputs) const;
@@ -38,7 +39,7 @@ private:
     GlVertexArray m_noVertices;
     GlSampler m_linear;
     GlSampler m_nearest;
-    GlQuery m_timer;
+    GlQuery m_timer;   // empty on a software device
 };
 
 }  // namespace pellucid::renderer

@@ -27,9 +27,9 @@ Tile TileCutter::next(double wantedPixels) {
     return tile;
 }
 
-double nextTilePixels(double lastPixels, double lastMs, double targetMs) {
-    const double factor = lastMs > 0.0 ? targetMs / lastMs : 4.0;
-    return std::max(lastPixels * std::clamp(factor, 0.1, 4.0), 1.0);
+void TileBudget::took(double pixels, double ms) {
+    m_worst = std::max(m_worst, ms / pixels);
+    m_next = m_worst;
 }
 
 }  // namespace pellucid::renderer

@@ -28,7 +28,20 @@ private:
     int m_bandHeight = 0;
 };
 
-/// Pixels of the next tile from what the last one took: aims at `targetMs`, grows at most four-fold at a time.
-[[nodiscard]] double nextTilePixels(double lastPixels, double lastMs, double targetMs);
+/// Sizes tiles by the most expensive one seen, since a picture's empty parts say nothing about its full ones.
+class TileBudget {
+public:
+    /// `msPerPixel`: what the last picture of the kind needed at worst, or a pessimistic guess.
+    TileBudget(double targetMs, double msPerPixel) : m_targetMs(targetMs), m_worst(0.5 * msPerPixel), m_next(msPerPixel) {}
+    [[nodiscard]] double wantedPixels() const { return m_targetMs / m_next; }
+    void took(double pixels, double ms);
+    /// For the next picture of the kind.
+    [[nodiscard]] double msPerPixel() const { return m_worst; }
+
+private:
+    double m_targetMs;
+    double m_worst;
+    double m_next;
+};
 
 }  // namespace pellucid::renderer
