@@ -3,24 +3,23 @@
 #include "renderer/passes/tiles.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pellucid::renderer {
 
 Tile TileCutter::next(double wantedPixels) {
-    // Software rasterisers share out blocks of 64 x 64 pixels: a multiple of it in each direction keeps all cores busy.
+    // Software rasterisers give each thread blocks of 64 x 64 pixels: wide strips spread over all threads, and whole blocks are
+    // not touched twice. A quad of pixels is the smallest unit everywhere.
     constexpr int kBlock = 64;
-    const auto rounded = [](double pixels, int limit) {
-        const int blocks = static_cast<int>(std::min(pixels, 1e9)) / kBlock * kBlock;
-        return std::clamp(blocks > 0 ? blocks : static_cast<int>(pixels), 1, limit);
-    };
+    constexpr int kThinnest = 4;
     if (m_origin.x == 0) {
-        const double rows = wantedPixels / m_size.x;
-        // Less than a block of rows: keep the tile square rather than a thin strip.
-        const double height = rows >= kBlock ? rows : std::clamp(std::sqrt(wantedPixels), 1.0, static_cast<double>(kBlock));
-        m_bandHeight = rounded(height, m_size.y - m_origin.y);
+        const int rows = static_cast<int>(std::min(wantedPixels / m_size.x, 1e6));
+        const int height = rows >= kBlock ? rows / kBlock * kBlock : std::max(rows, kThinnest);
+        m_bandHeight = std::min(height, m_size.y - m_origin.y);
     }
-    const int width = rounded(wantedPixels / m_bandHeight, m_size.x - m_origin.x);
+    const int wanted = static_cast<int>(std::min(wantedPixels / m_bandHeight, 1e6));
+    // What would be left of the row is taken along when it is less than half a tile.
+    const int left = m_size.x - m_origin.x;
+    const int width = std::max(wanted, kThinnest) * 3 / 2 >= left ? left : std::max(wanted, kThinnest);
     const Tile tile{m_origin, {width, m_bandHeight}};
     m_origin.x += width;
     if (m_origin.x >= m_size.x) m_origin = {0, m_origin.y + m_bandHeight};
