@@ -7,8 +7,8 @@ vec3 encodeForDisplay(vec3 linear) {
     return mix(low, high, greaterThan(linear, vec3(0.0031308)));
 }
 
-// An associated colour is encoded as the colour it is the association of.
+// An associated colour is encoded as the colour it is the association of; a glow without opacity as it is.
 vec3 encodePicture(vec3 color, float opacity) {
     if (!transparentPicture) return encodeForDisplay(color);
-    return opacity > 0.0 ? encodeForDisplay(color / opacity) * opacity : color;
+    return opacity > 0.0 ? encodeForDisplay(color / opacity) * opacity : encodeForDisplay(color);
 }
