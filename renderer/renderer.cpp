@@ -48,6 +48,14 @@ double guessedMsPerSample(const Features& features) {
     return kMsPerFetch * fetchesPerValue * (features.lit ? 7.0 : 1.0);
 }
 
+/// True when everything this scene's mode uses is set: finding defaults reads voxels, which an interactive frame must not pay for.
+bool isComplete(const Scene& scene) {
+    if (scene.volumes.empty() || !scene.lights || !scene.unitLengthMm) return false;
+    const auto& item = scene.volumes.front();
+    return (item.transferFunction || !usesTransferFunction(scene.mode)) && (item.window || !usesWindow(scene.mode)) &&
+           (item.isovalue || scene.mode != Mode::Isosurface);
+}
+
 }  // namespace
 
 struct Renderer::State {
@@ -133,7 +141,7 @@ Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>&
     std::optional<GlStateScope> restore;
     if (!m_state->context.isOwn()) restore.emplace();
 
-    const Scene full = completed(scene, volumes);
+    const Scene full = isComplete(scene) ? scene : completed(scene, volumes);
     const auto planFor = [&](const Scene& wanted) {
         std::vector<VolumeFacts> facts;
         for (std::size_t i = 0; i < volumes.size(); ++i)

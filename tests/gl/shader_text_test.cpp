@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "renderer/plan/shader_assembly.h"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+#include <set>
+
+#include "renderer/plan/stages.h"
+#include "tests/gl/scenes.h"
+
+namespace pellucid::renderer {
+namespace {
+
+using test::kAllFilters;
+using test::kAllModes;
+
+std::vector<Features> allFeatures() {
+    std::vector<Features> all;
+    for (const Mode mode : kAllModes)
+        for (const Filter filter : kAllFilters)
+            for (const Projection projection : {Projection::Perspective, Projection::Orthographic})
+                for (const int lights : {0, 1, 3})
+                    for (const auto space : {CompositingSpace::Display, CompositingSpace::Linear})
+                        for (const double bound : {0.0, 0.001}) {
+                            Scene scene = test::rampScene(mode);
+                            scene.volumes[0].filter = filter;
+                            scene.camera.projection = projection;
+                            scene.lights->resize(static_cast<std::size_t>(lights));
+                            scene.space = space;
+                            scene.quality.earlyTermination = bound;
+                            all.push_back(featuresOf(scene));
+                        }
+    return all;
+}
+
+std::set<std::string> identifiers(const std::string& text) {
+    static const std::regex word("[A-Za-z_][A-Za-z0-9_]*");
+    static const std::regex comment("//[^\n]*");
+    const std::string code = std::regex_replace(text, comment, "");
+    return {std::sregex_token_iterator(code.begin(), code.end(), word), std::sregex_token_iterator()};
+}
+
+TEST(ShaderText, EqualFeaturesGiveEqualBytes) {
+    for (const auto& features : allFeatures()) {
+        const auto rows = chooseStages(features).rows;
+        EXPECT_EQ(assembleShader(features, rows).fragment, assembleShader(features, rows).fragment);
+    }
+}
+
+TEST(ShaderText, AStageLeftOutLeavesNoIdentifierBehind) {
+    for (const auto& features : allFeatures()) {
+        const auto rows = chooseStages(features).rows;
+        const auto text = assembleShader(features, rows);
+        const auto present = identifiers(text.fragment);
+        std::set<std::string> declared(text.uniforms.begin(), text.uniforms.end());
+        declared.insert(text.blocks.begin(), text.blocks.end());
+        for (const auto& variant : stageTable()) {
+            const bool chosen = std::any_of(rows.begin(), rows.end(), [&](const StageRow& row) {
+                return row.stage == variant.stage && row.variant == variant.variant;
+            });
+            for (const auto& list : {variant.uniforms, variant.blocks})
+                for (const char* name : list) {
+                    if (chosen)
+                        EXPECT_TRUE(present.contains(name)) << variant.stage << '/' << variant.variant << ": " << name;
+                    else
+                        EXPECT_EQ(present.contains(name), declared.contains(name)) << name;
+                }
+        }
+        EXPECT_THAT(text.fragment, testing::Not(testing::HasSubstr("//@")));
+        if (!features.lit)
+            for (const char* name : {"shade", "gradientMm", "lights", "material"}) EXPECT_FALSE(present.contains(name)) << name;
+        if (!features.earlyTermination) EXPECT_FALSE(present.contains("rayIsDone"));
+        if (features.space == CompositingSpace::Display) EXPECT_FALSE(present.contains("encodePicture"));
+    }
+}
+
+TEST(ShaderText, StagesFindWhatTheyCall) {
+    for (const auto& features : allFeatures()) {
+        const auto rows = chooseStages(features).rows;
+        std::set<std::string> present;
+        for (const auto& row : rows) {
+            for (const char* need : findVariant(row.stage, row.variant).needs)
+                EXPECT_TRUE(present.contains(need)) << row.stage << '/' << row.variant << " needs " << need << " before it";
+            present.insert(row.stage);
+        }
+    }
+}
+
+TEST(ShaderText, DriverMessagesNameFileAndLine) {
+    const std::vector<std::string> files{"engine/raycast.frag", "ray/perspective.glsl"};
+    EXPECT_EQ(locateInFiles("1:12(5): error: syntax", files), "ray/perspective.glsl:12: error: syntax");
+    EXPECT_EQ(locateInFiles("a\n0(7) : error C0000", files), "a\nengine/raycast.frag:7 : error C0000");
+}
+
+TEST(ShaderText, LineDirectivesPointIntoTheFile) {
+    Scene scene = test::rampScene();
+    const Features features = featuresOf(scene);
+    const auto text = assembleShader(features, chooseStages(features).rows);
+    // Follow the directives and compare each line with the file it claims to come from.
+    std::istringstream lines(text.fragment);
+    std::string line, name;
+    int number = 0;
+    std::vector<std::string> source;
+    int compared = 0;
+    while (std::getline(lines, line)) {
+        std::smatch match;
+        if (std::regex_match(line, match, std::regex(R"(#line (\d+) (\d+))"))) {
+            number = std::stoi(match[1]);
+            source.clear();
+            std::istringstream file(shaderFile(text.files[std::stoul(match[2])]));
+            for (std::string l; std::getline(file, l);) source.push_back(l);
+        } else if (!source.empty()) {
+            ASSERT_LE(static_cast<std::size_t>(number), source.size());
+            EXPECT_EQ(line, source[static_cast<std::size_t>(number) - 1]);
+            ++number;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 100);
+}
+
+}  // namespace
+}  // namespace pellucid::renderer
