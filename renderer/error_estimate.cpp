@@ -17,7 +17,8 @@ constexpr int kSmallestProbe = 64;
 Scene reduced(const Scene& scene) {
     Scene probe = scene;
     for (int axis = 0; axis < 2; ++axis)
-        probe.picture.size[axis] = std::max(scene.picture.size[axis] / kReduction, std::min(scene.picture.size[axis], kSmallestProbe));
+        probe.picture.size[axis] = std::max(scene.picture.size[axis] / kReduction,
+                                            std::min(scene.picture.size[axis], kSmallestProbe));
     return probe;
 }
 
@@ -39,18 +40,20 @@ Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const 
     if (!a) return tl::unexpected(a.error());
     const auto b = draw(fine);
     if (!b) return tl::unexpected(b.error());
-    constexpr double kFirstOrder = 2.0;   // 2^1 / (2^1 - 1)
+    constexpr double kFirstOrder = 2.0;  // 2^1 / (2^1 - 1)
     double sum = 0.0;
     for (std::size_t i = 0; i < a->pixels.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel) {
-            const double error = kFirstOrder * std::abs(static_cast<double>(a->pixels[i][channel]) - static_cast<double>(b->pixels[i][channel]));
+            const double error = kFirstOrder * std::abs(static_cast<double>(a->pixels[i][channel]) -
+                                                        static_cast<double>(b->pixels[i][channel]));
             estimate.maxError = std::max(estimate.maxError, error);
             sum += error * error;
         }
     }
     estimate.rmse = std::sqrt(sum / (3.0 * static_cast<double>(a->pixels.size())));
     estimate.probedPixels = static_cast<int>(a->pixels.size());
-    estimate.method = fmt::format("step halved on {} x {} pixels, first order assumed", coarse.picture.size.x, coarse.picture.size.y);
+    estimate.method = fmt::format("step halved on {} x {} pixels, first order assumed", coarse.picture.size.x,
+                                  coarse.picture.size.y);
     return estimate;
 }
 

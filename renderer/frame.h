@@ -12,18 +12,19 @@ namespace pellucid::renderer {
 
 /// How wrong a picture is, in units of what is shown (1 = full range; 1/255 = one grey level).
 struct ErrorEstimate {
-    double maxError = 0.0;         ///< Largest over the probed pixels, from halving the step (Richardson).
-    double rmse = 0.0;             ///< Over the probed pixels and RGB.
-    double terminationBound = 0.0; ///< What early ray termination may add at most.
-    double tableBound = 0.0;       ///< What the transfer table may add at most for one sample's colour.
+    double maxError = 0.0;          ///< Largest over the probed pixels, from halving the step (Richardson).
+    double rmse = 0.0;              ///< Over the probed pixels and RGB.
+    double terminationBound = 0.0;  ///< What early ray termination may add at most.
+    double tableBound = 0.0;        ///< What the transfer table may add at most for one sample's colour.
     int probedPixels = 0;
-    std::string method;            ///< A sentence: how it was found.
+    std::string method;  ///< A sentence: how it was found.
 };
 
 struct FrameCost {
-    double gpuMs = 0.0;       ///< Sum over all tiles: GPU timer queries; on a software device the wall clock around each finished tile.
-    double wallMs = 0.0;      ///< From the call to the pixels, uploads and compilation included.
-    double prepareMs = 0.0;   ///< The part of wallMs before the first tile: compile, upload, tables.
+    double gpuMs = 0.0;      ///< Sum over all tiles: GPU timer queries; on a software device the wall clock
+                             ///< around each finished tile.
+    double wallMs = 0.0;     ///< From the call to the pixels, uploads and compilation included.
+    double prepareMs = 0.0;  ///< The part of wallMs before the first tile: compile, upload, tables.
     int tiles = 0;
     double longestTileMs = 0.0;
 };
@@ -32,7 +33,7 @@ struct FrameCost {
 struct Frame {
     ImageF image;
     FrameCost cost;
-    std::optional<ErrorEstimate> error;   ///< When asked for.
+    std::optional<ErrorEstimate> error;  ///< When asked for.
     Plan plan;
 };
 

@@ -41,36 +41,43 @@ double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// First guess of a sample's cost: slower than any device seen, so that the first tile is not too long for one.
+/// First guess of a sample's cost: slower than any device seen, so that the first tile is not too long for
+/// one.
 double guessedMsPerSample(const Features& features) {
     constexpr double kMsPerFetch = 10e-6;
-    const double fetchesPerValue = features.filter == Filter::CatmullRom ? 27.0 : features.filter == Filter::TricubicBSpline ? 8.0 : 1.0;
+    const double fetchesPerValue = features.filter == Filter::CatmullRom        ? 27.0
+                                   : features.filter == Filter::TricubicBSpline ? 8.0
+                                                                                : 1.0;
     return kMsPerFetch * fetchesPerValue * (features.lit ? 7.0 : 1.0);
 }
 
-/// True when everything this scene's mode uses is set: finding defaults reads voxels, which an interactive frame must not pay for.
+/// True when everything this scene's mode uses is set: finding defaults reads voxels, which an interactive
+/// frame must not pay for.
 bool isComplete(const Scene& scene) {
     if (scene.volumes.empty() || !scene.lights || !scene.unitLengthMm) return false;
     const auto& item = scene.volumes.front();
-    return (item.transferFunction || !usesTransferFunction(scene.mode)) && (item.window || !usesWindow(scene.mode)) &&
-           (item.isovalue || scene.mode != Mode::Isosurface);
+    return (item.transferFunction || !usesTransferFunction(scene.mode)) &&
+           (item.window || !usesWindow(scene.mode)) && (item.isovalue || scene.mode != Mode::Isosurface);
 }
 
 }  // namespace
 
 struct Renderer::State {
-    GpuContext context;   // first: everything else needs it to be destroyed
+    GpuContext context;  // first: everything else needs it to be destroyed
     ProgramCache programs;
     ResourceStore store;
     RaycastPass raycast;
-    std::map<const GlProgram*, double> msPerSample;   // of the most expensive tile last drawn
+    std::map<const GlProgram*, double> msPerSample;  // of the most expensive tile last drawn
 
     explicit State(GpuContext own) : context(std::move(own)), raycast(isSoftware(glText(GL_RENDERER))) {}
     ~State() { context.makeCurrent(); }
 
     Result<const GlProgram*> program(const Plan& plan);
-    Result<ImageF> drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume, const RenderOptions& options, FrameCost& cost);
-    DeviceLimits limits() const { return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes}; }
+    Result<ImageF> drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
+                            const RenderOptions& options, FrameCost& cost);
+    DeviceLimits limits() const {
+        return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes};
+    }
 };
 
 Result<const GlProgram*> Renderer::State::program(const Plan& plan) {
@@ -81,8 +88,8 @@ Result<const GlProgram*> Renderer::State::program(const Plan& plan) {
     return found->program;
 }
 
-Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume, const RenderOptions& options,
-                                         FrameCost& cost) {
+Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
+                                         const RenderOptions& options, FrameCost& cost) {
     const auto start = std::chrono::steady_clock::now();
     const auto& item = scene.volumes.front();
     auto program_ = program(plan);
@@ -110,7 +117,8 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, c
     // Remembered per sample of the longest ray, since steps and volumes differ from picture to picture.
     const double samples = std::max(plan.samplesPerRay, 1.0);
     const auto known = msPerSample.find(*program_);
-    double msPerPixel = samples * (known != msPerSample.end() ? known->second : guessedMsPerSample(plan.features));
+    double msPerPixel =
+        samples * (known != msPerSample.end() ? known->second : guessedMsPerSample(plan.features));
     auto image = raycast.draw(inputs, scene.picture.size, options, msPerPixel, cost);
     if (!image) return image;
     msPerSample[*program_] = msPerPixel / samples;
@@ -135,7 +143,8 @@ Result<Renderer> Renderer::inCurrentContext() {
     return Renderer(std::make_unique<State>(std::move(*context)));
 }
 
-Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>& volumes, const RenderOptions& options) {
+Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                               const RenderOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     m_state->context.makeCurrent();
     std::optional<GlStateScope> restore;
@@ -145,7 +154,8 @@ Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>&
     const auto planFor = [&](const Scene& wanted) {
         std::vector<VolumeFacts> facts;
         for (std::size_t i = 0; i < volumes.size(); ++i)
-            facts.push_back(factsOf(*volumes[i], i < wanted.volumes.size() ? wanted.volumes[i].component : 0));
+            facts.push_back(
+                factsOf(*volumes[i], i < wanted.volumes.size() ? wanted.volumes[i].component : 0));
         return makePlan(wanted, facts, m_state->limits());
     };
     auto plan = planFor(full);
@@ -170,7 +180,9 @@ Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>&
     return frame;
 }
 
-const WorkCounts& Renderer::workCounts() const { return m_state->store.counts; }
+const WorkCounts& Renderer::workCounts() const {
+    return m_state->store.counts;
+}
 
 DeviceLimits Renderer::limits() const {
     m_state->context.makeCurrent();

@@ -13,24 +13,25 @@ namespace pellucid::renderer {
 class GpuContext;
 
 struct RenderOptions {
-    Progress progress;            ///< Asked between tiles; false cancels.
-    bool estimateError = false;   ///< Adds about a fifth to the time of the frame.
-    double tileTargetMs = 20.0;   ///< Tiles are sized so that one draw takes about this long; 30 is the stated limit.
+    Progress progress;           ///< Asked between tiles; false cancels.
+    bool estimateError = false;  ///< Adds about a fifth to the time of the frame.
+    double tileTargetMs =
+        20.0;  ///< Tiles are sized so that one draw takes about this long; 30 is the stated limit.
 };
 
-/// How often each kind of work was done since the renderer was made (Van Gelder & Kim 1996, section 3: what an event
-/// need not recompute is not recomputed).
+/// How often each kind of work was done since the renderer was made (Van Gelder & Kim 1996, section 3: what
+/// an event need not recompute is not recomputed).
 struct WorkCounts {
     int volumeUploads = 0;
     int transferTables = 0;
-    int programsCompiled = 0;     ///< From text.
-    int programsFromDisk = 0;     ///< Driver binaries.
+    int programsCompiled = 0;  ///< From text.
+    int programsFromDisk = 0;  ///< Driver binaries.
     int frames = 0;
     bool operator==(const WorkCounts&) const = default;
 };
 
-/// Scene + volumes -> Frame. Owns GL objects that live as long as scenes use them, so a second frame uploads nothing.
-/// Use from one thread, the one where its context is current.
+/// Scene + volumes -> Frame. Owns GL objects that live as long as scenes use them, so a second frame uploads
+/// nothing. Use from one thread, the one where its context is current.
 class Renderer {
 public:
     /// A renderer with its own headless context (EGL surfaceless). Errors: Gpu, with what to install.
@@ -43,7 +44,8 @@ public:
     ~Renderer();
 
     /// `scene` need not be completed. One volume for each scene.volumes item (or one volume and no item).
-    /// Errors: those of makePlan, Gpu (compile error with file, line and driver log; out of memory), Cancelled.
+    /// Errors: those of makePlan, Gpu (compile error with file, line and driver log; out of memory),
+    /// Cancelled.
     [[nodiscard]] Result<Frame> render(const Scene& scene, const std::vector<VolumePtr>& volumes,
                                        const RenderOptions& options = {});
 

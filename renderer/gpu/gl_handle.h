@@ -8,7 +8,8 @@
 
 namespace pellucid::renderer {
 
-/// Owner of one GL object: move-only, empty is id 0 and legal without a context. Deletion needs the context current.
+/// Owner of one GL object: move-only, empty is id 0 and legal without a context. Deletion needs the context
+/// current.
 template <class Traits>
 class GlHandle {
 public:

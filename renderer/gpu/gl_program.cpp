@@ -32,14 +32,16 @@ Result<GlShader> compileShader(GLenum kind, const std::string& text, const std::
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (compiled != GL_TRUE)
-        return fail(ErrorCode::Gpu, fmt::format("the driver does not compile a shader: {}", locateInFiles(shaderLog(shader.id()), files)));
+        return fail(ErrorCode::Gpu, fmt::format("the driver does not compile a shader: {}",
+                                                locateInFiles(shaderLog(shader.id()), files)));
     return shader;
 }
 
 }  // namespace
 
 GlProgram::GlProgram(GlProgramId program) : m_program(std::move(program)) {
-    for (const auto& uniform : activeUniforms()) m_locations[uniform] = glGetUniformLocation(id(), uniform.c_str());
+    for (const auto& uniform : activeUniforms())
+        m_locations[uniform] = glGetUniformLocation(id(), uniform.c_str());
 }
 
 Result<GlProgram> GlProgram::compile(const ShaderText& text) {
@@ -55,7 +57,8 @@ Result<GlProgram> GlProgram::compile(const ShaderText& text) {
     GLint linked = GL_FALSE;
     glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
     if (linked != GL_TRUE)
-        return fail(ErrorCode::Gpu, fmt::format("the driver does not link a program: {}", locateInFiles(programLog(program.id()), text.files)));
+        return fail(ErrorCode::Gpu, fmt::format("the driver does not link a program: {}",
+                                                locateInFiles(programLog(program.id()), text.files)));
     return GlProgram(std::move(program));
 }
 

@@ -8,12 +8,14 @@
 
 namespace pellucid::renderer {
 
-/// An OpenGL 4.5 core context: an own headless one (EGL without a surface, no X server needed), or the one a window made current.
+/// An OpenGL 4.5 core context: an own headless one (EGL without a surface, no X server needed), or the one a
+/// window made current.
 class GpuContext {
 public:
     /// Errors: Gpu, naming what is missing and the Debian package that brings it.
     static Result<GpuContext> headless();
-    /// Takes the context that is current on this thread. Errors: Gpu when there is none or it is older than 4.5.
+    /// Takes the context that is current on this thread. Errors: Gpu when there is none or it is older
+    /// than 4.5.
     static Result<GpuContext> current();
 
     GpuContext(GpuContext&& other) noexcept;
@@ -30,8 +32,8 @@ private:
     void* m_context = nullptr;  // EGLContext
 };
 
-/// Collects the driver's KHR_debug errors and warnings of high severity of the current context (a debug one: PELLUCID_GL_DEBUG=1).
-/// Returns those since the last call.
+/// What the driver called an error since the last call, in all contexts of the process. Collected from debug
+/// contexts only: PELLUCID_GL_DEBUG=1 in the environment makes them.
 [[nodiscard]] std::string takeGlErrors();
 
 }  // namespace pellucid::renderer

@@ -53,7 +53,8 @@ std::optional<GlProgram> readBinary(const std::filesystem::path& file, const std
     std::uint64_t keySize = 0;
     GLenum format = 0;
     char magic[sizeof kMagic] = {};
-    if (!take(rest, magic) || std::memcmp(magic, kMagic, sizeof magic) != 0 || !take(rest, keySize)) return {};
+    if (!take(rest, magic) || std::memcmp(magic, kMagic, sizeof magic) != 0 || !take(rest, keySize))
+        return {};
     if (rest.size() < keySize || rest.substr(0, keySize) != key) return {};
     rest.remove_prefix(keySize);
     if (!take(rest, format)) return {};
@@ -81,7 +82,8 @@ ProgramCache::ProgramCache() : m_driver(driverName()) {
 
 Result<ProgramCache::Found> ProgramCache::find(const ShaderText& text) {
     const std::string key = m_driver + text.vertex + text.fragment;
-    if (const auto known = m_programs.find(key); known != m_programs.end()) return Found{&known->second, Found::Origin::Memory};
+    if (const auto known = m_programs.find(key); known != m_programs.end())
+        return Found{&known->second, Found::Origin::Memory};
     if (!m_folder.empty()) {
         if (auto stored = readBinary(fileOf(key), key))
             return Found{&m_programs.emplace(key, std::move(*stored)).first->second, Found::Origin::Disk};
@@ -93,7 +95,9 @@ Result<ProgramCache::Found> ProgramCache::find(const ShaderText& text) {
     return Found{&program, Found::Origin::Compiled};
 }
 
-std::filesystem::path ProgramCache::fileOf(const std::string& key) const { return m_folder / fmt::format("{:016x}.bin", hashOf(key)); }
+std::filesystem::path ProgramCache::fileOf(const std::string& key) const {
+    return m_folder / fmt::format("{:016x}.bin", hashOf(key));
+}
 
 void ProgramCache::store(const std::string& key, const GlProgram& program) const {
     GLint size = 0;

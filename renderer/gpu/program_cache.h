@@ -9,9 +9,10 @@
 
 namespace pellucid::renderer {
 
-/// Programs by their text: in memory, and as driver binaries in the user's cache folder ($XDG_CACHE_HOME/pellucid/programs,
-/// nowhere when neither it nor HOME is set). A file holds the whole text and the driver's name, so a wrong one is never used; the
-/// folder is a cache, failing to write it is no error.
+/// Programs by their text: in memory, and as driver binaries in the user's cache folder
+/// ($XDG_CACHE_HOME/pellucid/programs, nowhere when neither it nor HOME is set). A file holds the whole text
+/// and the driver's name, so a wrong one is never used; the folder is a cache, failing to write it is no
+/// error.
 class ProgramCache {
 public:
     ProgramCache();

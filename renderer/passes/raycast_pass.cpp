@@ -37,14 +37,19 @@ void setUniform(GLuint program, GLint location, const UniformValue& value) {
         value);
 }
 
-/// Copies the target's rows (bottom first) into the picture (top first); `fromBottom` is the band's first row in the picture.
+/// Copies the target's rows (bottom first) into the picture (top first); `fromBottom` is the band's first row
+/// in the picture.
 void readBand(GLuint texture, glm::ivec2 band, glm::ivec2 targetSize, int fromBottom, ImageF& image) {
-    std::vector<glm::vec4> rows(static_cast<std::size_t>(targetSize.x) * static_cast<std::size_t>(targetSize.y));
+    std::vector<glm::vec4> rows(static_cast<std::size_t>(targetSize.x) *
+                                static_cast<std::size_t>(targetSize.y));
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rows.size() * sizeof(glm::vec4)), rows.data());
+    glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rows.size() * sizeof(glm::vec4)),
+                      rows.data());
     for (int row = 0; row < band.y; ++row) {
         const auto from = rows.begin() + static_cast<std::ptrdiff_t>(row) * targetSize.x;
-        std::copy_n(from, band.x, image.pixels.begin() + static_cast<std::ptrdiff_t>(image.size.y - 1 - fromBottom - row) * image.size.x);
+        std::copy_n(from, band.x,
+                    image.pixels.begin() +
+                        static_cast<std::ptrdiff_t>(image.size.y - 1 - fromBottom - row) * image.size.x);
     }
 }
 
@@ -54,14 +59,15 @@ RaycastPass::RaycastPass(bool softwareDevice)
     : m_noVertices(createVertexArray()),
       m_linear(createSampler(GL_LINEAR)),
       m_nearest(createSampler(GL_NEAREST)),
-      // llvmpipe's timer does not cover the work of its threads (3 ms reported for a draw of 140 ms): there, the wall clock around
-      // a finished tile is the device's time.
+      // llvmpipe's timer does not cover the work of its threads (3 ms reported for a draw of 140 ms): there,
+      // the wall clock around a finished tile is the device's time.
       m_timer(softwareDevice ? GlQuery() : createQuery(GL_TIME_ELAPSED)) {}
 
 void RaycastPass::bind(const RaycastInputs& inputs) const {
     const GLuint program = inputs.program->id();
     for (const auto& [name, value] : *inputs.uniforms)
-        if (const GLint location = inputs.program->location(name); location >= 0) setUniform(program, location, value);
+        if (const GLint location = inputs.program->location(name); location >= 0)
+            setUniform(program, location, value);
     glUseProgram(program);
     glBindVertexArray(m_noVertices.id());
     glBindTextureUnit(0, inputs.volumeTexture);
@@ -96,9 +102,10 @@ double RaycastPass::drawTile(const Tile& tile, FrameCost& cost) {
     return ms;
 }
 
-Result<ImageF> RaycastPass::draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options, double& msPerPixel,
-                                 FrameCost& cost) {
-    ImageF image{size, std::vector<glm::vec4>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))};
+Result<ImageF> RaycastPass::draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,
+                                 double& msPerPixel, FrameCost& cost) {
+    ImageF image{size,
+                 std::vector<glm::vec4>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))};
     bind(inputs);
     const glm::ivec2 targetSize = inputs.target->size;
     const GLint originLocation = inputs.program->location("targetOrigin");
@@ -109,7 +116,8 @@ Result<ImageF> RaycastPass::draw(const RaycastInputs& inputs, glm::ivec2 size, c
         for (TileCutter cutter(band); !cutter.done();) {
             const Tile tile = cutter.next(budget.wantedPixels());
             const double done = static_cast<double>(fromBottom + tile.origin.y) / size.y;
-            if (!goOn(options.progress, done, "drawing")) return fail(ErrorCode::Cancelled, "the drawing was cancelled");
+            if (!goOn(options.progress, done, "drawing"))
+                return fail(ErrorCode::Cancelled, "the drawing was cancelled");
             budget.took(static_cast<double>(tile.size.x) * tile.size.y, drawTile(tile, cost));
         }
         readBand(inputs.target->color.id(), band, targetSize, fromBottom, image);

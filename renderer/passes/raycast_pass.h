@@ -16,9 +16,9 @@ struct RaycastInputs {
     const GlProgram* program = nullptr;
     const Uniforms* uniforms = nullptr;
     GLuint volumeTexture = 0;
-    GLuint transferTable = 0;     ///< 0: none.
-    GLuint lightsBlock = 0;       ///< 0: none.
-    bool interpolates = true;     ///< The volume's sampler is linear.
+    GLuint transferTable = 0;  ///< 0: none.
+    GLuint lightsBlock = 0;    ///< 0: none.
+    bool interpolates = true;  ///< The volume's sampler is linear.
     const ResourceStore::Target* target = nullptr;
 };
 
@@ -28,9 +28,10 @@ public:
     /// `softwareDevice`: the driver draws on the CPU.
     explicit RaycastPass(bool softwareDevice);
 
-    /// A picture of `size` pixels. `cost` gains times and tiles. `msPerPixel` is what a pixel may cost at worst, and comes back as
-    /// measured. Errors: Cancelled, Gpu.
-    Result<ImageF> draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options, double& msPerPixel, FrameCost& cost);
+    /// A picture of `size` pixels. `cost` gains times and tiles. `msPerPixel` is what a pixel may cost at
+    /// worst, and comes back as measured. Errors: Cancelled, Gpu.
+    Result<ImageF> draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,
+                        double& msPerPixel, FrameCost& cost);
 
 private:
     void bind(const RaycastInputs& inputs) const;
@@ -39,7 +40,7 @@ private:
     GlVertexArray m_noVertices;
     GlSampler m_linear;
     GlSampler m_nearest;
-    GlQuery m_timer;   // empty on a software device
+    GlQuery m_timer;  // empty on a software device
 };
 
 }  // namespace pellucid::renderer

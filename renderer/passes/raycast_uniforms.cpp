@@ -13,8 +13,9 @@ namespace pellucid::renderer {
 
 namespace {
 
-/// Distance in front of the eye of the plane that rays are anchored on. Near the volume, so that float positions on it are as exact
-/// as the volume is small, however far the eye; the eye itself when it is close, where the plane would be ill-defined.
+/// Distance in front of the eye of the plane that rays are anchored on. Near the volume, so that float
+/// positions on it are as exact as the volume is small, however far the eye; the eye itself when it is close,
+/// where the plane would be ill-defined.
 double anchorDistance(const RayFrame& frame, glm::dvec3 eyeFromCentre, double radius) {
     const double alongForward = -glm::dot(eyeFromCentre, frame.forward);
     if (frame.projection == Projection::Orthographic) return alongForward;
@@ -24,7 +25,9 @@ double anchorDistance(const RayFrame& frame, glm::dvec3 eyeFromCentre, double ra
 void addRay(Uniforms& uniforms, const RayFrame& frame, const Grid& grid) {
     const glm::dvec3 eye = frame.eye - centreMm(grid);
     const double anchor = anchorDistance(frame, eye, radiusMm(grid));
-    const auto add = [&](const char* name, glm::dvec3 value) { uniforms.emplace_back(name, glm::vec3(value)); };
+    const auto add = [&](const char* name, glm::dvec3 value) {
+        uniforms.emplace_back(name, glm::vec3(value));
+    };
     add("rayBase", eye + anchor * frame.forward);
     add("rayAnchorRight", anchor * frame.right);
     add("rayAnchorUp", anchor * frame.up);
@@ -51,22 +54,27 @@ void addGeometry(Uniforms& uniforms, const Grid& grid, double texelExtent) {
     uniforms.emplace_back("gradientFloor", static_cast<float>(1e-6 * texelExtent));
 }
 
-void addTable(Uniforms& uniforms, const Scene& scene, const VolumeTexture& volume, const TransferTexture& table) {
+void addTable(Uniforms& uniforms, const Scene& scene, const VolumeTexture& volume,
+              const TransferTexture& table) {
     const auto& layout = table.layout;
-    // Entry i stands at texture coordinate (i + 0.5) / size and at physical value lo + i (hi - lo) / (size - 1).
-    const double perPhysical = layout.hi > layout.lo ? (layout.size - 1.0) / layout.size / (layout.hi - layout.lo) : 0.0;
+    // Entry i stands at texture coordinate (i + 0.5) / size and at physical value lo + i (hi - lo) / (size -
+    // 1).
+    const double perPhysical =
+        layout.hi > layout.lo ? (layout.size - 1.0) / layout.size / (layout.hi - layout.lo) : 0.0;
     const double atLo = 0.5 / layout.size;
     uniforms.emplace_back("tableFromValue",
                           glm::vec2(volume.physicalPerTexel() * perPhysical,
                                     (volume.physicalAtZero() - layout.lo) * perPhysical + atLo));
     const double perMm = scene.densityScale / *scene.unitLengthMm;
     uniforms.emplace_back("extinctionPerMm", static_cast<float>(perMm));
-    // Opacity of one unit length, as extinction per mm; a hair lower, so that a plateau at the threshold itself counts.
-    uniforms.emplace_back("hitExtinctionPerMm",
-                          static_cast<float>(extinctionFromOpacity(scene.hitOpacity) / *scene.unitLengthMm * (1.0 - 1e-6)));
+    // Opacity of one unit length, as extinction per mm; a hair lower, so that a plateau at the threshold
+    // itself counts.
+    uniforms.emplace_back("hitExtinctionPerMm", static_cast<float>(extinctionFromOpacity(scene.hitOpacity) /
+                                                                   *scene.unitLengthMm * (1.0 - 1e-6)));
 }
 
-/// The most light a point can send relative to its colour: what is hidden behind transmittance T changes the picture by at most T times this.
+/// The most light a point can send relative to its colour: what is hidden behind transmittance T changes the
+/// picture by at most T times this.
 double brightestReflection(const Scene& scene) {
     if (!scene.lights || scene.lights->empty()) return 1.0;
     double sum = scene.material.ambient;
@@ -89,22 +97,25 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
     const bool linear = plan.features.space == CompositingSpace::Linear;
     if (linear)
-        for (int channel = 0; channel < 3; ++channel) background[channel] = linearFromDisplay(background[channel]);
+        for (int channel = 0; channel < 3; ++channel)
+            background[channel] = linearFromDisplay(background[channel]);
     uniforms.emplace_back("background", glm::vec3(background));
     uniforms.emplace_back("transparentPicture", scene.picture.transparent ? 1 : 0);
-    uniforms.emplace_back("material", glm::vec4(scene.material.ambient, scene.material.diffuse, scene.material.specular,
-                                                scene.material.shininess));
+    uniforms.emplace_back("material", glm::vec4(scene.material.ambient, scene.material.diffuse,
+                                                scene.material.specular, scene.material.shininess));
     if (usesWindow(scene.mode)) {
         const auto& window = *item.window;
         uniforms.emplace_back("windowFromValue",
                               glm::vec2(volume.physicalPerTexel() / window.width,
                                         (volume.physicalAtZero() - window.level) / window.width + 0.5));
     }
-    if (scene.mode == Mode::Isosurface) uniforms.emplace_back("isovalue", static_cast<float>(volume.texelFromPhysical(*item.isovalue)));
+    if (scene.mode == Mode::Isosurface)
+        uniforms.emplace_back("isovalue", static_cast<float>(volume.texelFromPhysical(*item.isovalue)));
     if (table != nullptr) addTable(uniforms, scene, volume, *table);
     // The sRGB curve is 12.92 times steeper in the dark than light-linear values.
     const double steepest = (linear ? 12.92 : 1.0) * brightestReflection(scene);
-    uniforms.emplace_back("terminationTransmittance", static_cast<float>(plan.earlyTerminationBound / steepest));
+    uniforms.emplace_back("terminationTransmittance",
+                          static_cast<float>(plan.earlyTerminationBound / steepest));
     uniforms.emplace_back("volumeTexture", 0);
     uniforms.emplace_back("transferTable", 1);
     return uniforms;
@@ -116,9 +127,15 @@ std::vector<glm::vec4> lightBlock(const Scene& scene, const Grid& grid) {
     for (const auto& light : *scene.lights) {
         block.emplace_back(glm::vec3(light.color * light.intensity), 1.0f);
         switch (light.kind) {
-            case LightKind::Headlight: block.emplace_back(glm::vec3(-forward), 0.0f); break;
-            case LightKind::Directional: block.emplace_back(glm::vec3(-glm::normalize(light.directionMm)), 0.0f); break;
-            case LightKind::Point: block.emplace_back(glm::vec3(light.positionMm - centreMm(grid)), 1.0f); break;
+            case LightKind::Headlight:
+                block.emplace_back(glm::vec3(-forward), 0.0f);
+                break;
+            case LightKind::Directional:
+                block.emplace_back(glm::vec3(-glm::normalize(light.directionMm)), 0.0f);
+                break;
+            case LightKind::Point:
+                block.emplace_back(glm::vec3(light.positionMm - centreMm(grid)), 1.0f);
+                break;
         }
     }
     return block;

@@ -22,13 +22,14 @@ namespace pellucid::renderer {
 using UniformValue = std::variant<int, float, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4>;
 using Uniforms = std::vector<std::pair<std::string, UniformValue>>;
 
-/// Numbers of a frame. All that any stage of the plan may declare; those it does not are skipped when they are set.
-/// `table` is null in modes without a transfer function. Everything is computed in double relative to the volume's centre.
-[[nodiscard]] Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid, const VolumeTexture& volume,
-                                       const TransferTexture* table);
+/// Numbers of a frame. All that any stage of the plan may declare; those it does not are skipped when they
+/// are set. `table` is null in modes without a transfer function. Everything is computed in double relative
+/// to the volume's centre.
+[[nodiscard]] Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
+                                       const VolumeTexture& volume, const TransferTexture* table);
 
-/// The std140 block of shade/blinn_phong.glsl: colour * intensity, then direction to the light (w 0) or position (w 1),
-/// render coordinates.
+/// The std140 block of shade/blinn_phong.glsl: colour * intensity, then direction to the light (w 0) or
+/// position (w 1), render coordinates.
 [[nodiscard]] std::vector<glm::vec4> lightBlock(const Scene& scene, const Grid& grid);
 
 }  // namespace pellucid::renderer

@@ -7,8 +7,8 @@
 namespace pellucid::renderer {
 
 Tile TileCutter::next(double wantedPixels) {
-    // Software rasterisers give each thread blocks of 64 x 64 pixels: wide strips spread over all threads, and whole blocks are
-    // not touched twice. A quad of pixels is the smallest unit everywhere.
+    // Software rasterisers give each thread blocks of 64 x 64 pixels: wide strips spread over all threads,
+    // and whole blocks are not touched twice. A quad of pixels is the smallest unit everywhere.
     constexpr int kBlock = 64;
     constexpr int kThinnest = 4;
     if (m_origin.x == 0) {

@@ -13,8 +13,8 @@ struct Tile {
     bool operator==(const Tile&) const = default;
 };
 
-/// Cuts a picture into tiles of about a wanted number of pixels, row band by row band, left to right; the wanted number may
-/// change between tiles. Every pixel is covered once.
+/// Cuts a picture into tiles of about a wanted number of pixels, row band by row band, left to right; the
+/// wanted number may change between tiles. Every pixel is covered once.
 class TileCutter {
 public:
     explicit TileCutter(glm::ivec2 size) : m_size(size) {}
@@ -32,7 +32,8 @@ private:
 class TileBudget {
 public:
     /// `msPerPixel`: what the last picture of the kind needed at worst, or a pessimistic guess.
-    TileBudget(double targetMs, double msPerPixel) : m_targetMs(targetMs), m_worst(0.5 * msPerPixel), m_next(msPerPixel) {}
+    TileBudget(double targetMs, double msPerPixel)
+        : m_targetMs(targetMs), m_worst(0.5 * msPerPixel), m_next(msPerPixel) {}
     [[nodiscard]] double wantedPixels() const { return m_targetMs / m_next; }
     void took(double pixels, double ms);
     /// For the next picture of the kind.

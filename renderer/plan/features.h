@@ -15,15 +15,15 @@ struct Features {
     Filter filter = Filter::Trilinear;
     Projection projection = Projection::Perspective;
     bool lit = false;
-    int lights = 0;               ///< Count of lights; 0 unless lit.
+    int lights = 0;  ///< Count of lights; 0 unless lit.
     bool earlyTermination = false;
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
     bool operator==(const Features&) const = default;
 };
 
-/// Pure; drops what cannot matter (no lights in a mode that does not shade, no termination where nothing saturates).
-/// Precondition: the scene is completed().
+/// Pure; drops what cannot matter (no lights in a mode that does not shade, no termination where nothing
+/// saturates). Precondition: the scene is completed().
 [[nodiscard]] Features featuresOf(const Scene& scene);
 
 }  // namespace pellucid::renderer

@@ -18,22 +18,26 @@ namespace {
 constexpr double kMaxSamplesPerRay = 16777216.0;
 // std140: two vec4.
 constexpr std::uint64_t kBytesPerLight = 32;
-constexpr int kMaxLights = 256;   // 16 KB guaranteed for a uniform block leaves room for 512
+constexpr int kMaxLights = 256;  // 16 KB guaranteed for a uniform block leaves room for 512
 
 Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
     if (auto valid = validate(facts.grid); !valid) return tl::unexpected(valid.error());
     if (!std::isfinite(facts.physicalRange.hi - facts.physicalRange.lo))
-        return fail(ErrorCode::Unsupported, fmt::format("the values {:g} ... {:g} span more than a float64 can hold", facts.physicalRange.lo,
-                                                        facts.physicalRange.hi));
+        return fail(ErrorCode::Unsupported,
+                    fmt::format("the values {:g} ... {:g} span more than a float64 can hold",
+                                facts.physicalRange.lo, facts.physicalRange.hi));
     const auto size = facts.grid.size;
     const int largest = std::max({size.x, size.y, size.z});
     if (largest > limits.max3dTextureSize)
-        return fail(ErrorCode::TooLarge, fmt::format("the volume has {} x {} x {} voxels; this OpenGL driver allows {} along an axis",
-                                                     size.x, size.y, size.z, limits.max3dTextureSize));
+        return fail(
+            ErrorCode::TooLarge,
+            fmt::format("the volume has {} x {} x {} voxels; this OpenGL driver allows {} along an axis",
+                        size.x, size.y, size.z, limits.max3dTextureSize));
     const std::uint64_t bytes = textureBytes(facts);
     if (bytes > limits.maxTextureBytes)
-        return fail(ErrorCode::TooLarge, fmt::format("the volume needs {} MB as a texture; the limit is {} MB", bytes >> 20,
-                                                     limits.maxTextureBytes >> 20));
+        return fail(ErrorCode::TooLarge,
+                    fmt::format("the volume needs {} MB as a texture; the limit is {} MB", bytes >> 20,
+                                limits.maxTextureBytes >> 20));
     return {};
 }
 
@@ -41,9 +45,10 @@ void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) 
     const TableLayout layout = layoutFor(scene, plan, facts);
     plan.tableSize = layout.size;
     plan.tableWorstError = layout.worstError;
-    plan.resources.push_back({"transfer table", "texture 1D RGBA32F", static_cast<std::uint64_t>(layout.size) * 16,
-                              fmt::format("{} entries over {:g} ... {:g}; largest difference from the function {:.2g}", layout.size,
-                                          layout.lo, layout.hi, layout.worstError)});
+    plan.resources.push_back(
+        {"transfer table", "texture 1D RGBA32F", static_cast<std::uint64_t>(layout.size) * 16,
+         fmt::format("{} entries over {:g} ... {:g}; largest difference from the function {:.2g}",
+                     layout.size, layout.lo, layout.hi, layout.worstError)});
 }
 
 }  // namespace
@@ -66,23 +71,27 @@ glm::ivec2 targetSize(glm::ivec2 picture) {
     return {picture.x, std::clamp(kMaxTargetPixels / std::max(picture.x, 1), 1, picture.y)};
 }
 
-Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes, const DeviceLimits& limits) {
+Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
+                      const DeviceLimits& limits) {
     if (auto valid = validate(scene); !valid) return tl::unexpected(valid.error());
     if (volumes.size() != 1 || scene.volumes.size() != 1)
-        return fail(ErrorCode::Unsupported,
-                    fmt::format("the scene has {} volumes; exactly one can be drawn", std::max(volumes.size(), scene.volumes.size())));
+        return fail(ErrorCode::Unsupported, fmt::format("the scene has {} volumes; exactly one can be drawn",
+                                                        std::max(volumes.size(), scene.volumes.size())));
     const VolumeFacts& facts = volumes.front();
     if (auto fits = checkVolume(facts, limits); !fits) return tl::unexpected(fits.error());
 
     Plan plan;
     plan.features = featuresOf(scene);
     if (plan.features.lights > kMaxLights)
-        return fail(ErrorCode::TooLarge, fmt::format("the scene has {} lights; at most {} are allowed", plan.features.lights, kMaxLights));
+        return fail(ErrorCode::TooLarge, fmt::format("the scene has {} lights; at most {} are allowed",
+                                                     plan.features.lights, kMaxLights));
     plan.stepMm = stepMm(scene.quality, facts.grid);
-    plan.samplesPerRay = scene.mode == Mode::Slice ? 1.0 : std::ceil(2.0 * radiusMm(facts.grid) / plan.stepMm);
+    plan.samplesPerRay =
+        scene.mode == Mode::Slice ? 1.0 : std::ceil(2.0 * radiusMm(facts.grid) / plan.stepMm);
     if (!(plan.samplesPerRay <= kMaxSamplesPerRay))
         return fail(ErrorCode::InvalidArgument,
-                    fmt::format("/quality: a step of {:g} mm makes {:.3g} samples on the longest ray; at most {:.0f} are allowed",
+                    fmt::format("/quality: a step of {:g} mm makes {:.3g} samples on the longest ray; at "
+                                "most {:.0f} are allowed",
                                 plan.stepMm, plan.samplesPerRay, kMaxSamplesPerRay));
 
     auto choice = chooseStages(plan.features);
@@ -94,13 +103,15 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     plan.passes.push_back({"ray casting", fmt::format("{}x{} RGBA32F", target.x, target.y),
                            static_cast<std::uint64_t>(target.x) * static_cast<std::uint64_t>(target.y) * 16,
                            "accumulates in 32-bit float, drawn tile by tile"});
-    plan.resources.push_back({"volume", fmt::format("texture 3D {}", textureFormatName(facts.type)), textureBytes(facts),
-                              fmt::format("{} x {} x {} voxels of {}", facts.grid.size.x, facts.grid.size.y, facts.grid.size.z,
-                                          name(facts.type))});
+    plan.resources.push_back({"volume", fmt::format("texture 3D {}", textureFormatName(facts.type)),
+                              textureBytes(facts),
+                              fmt::format("{} x {} x {} voxels of {}", facts.grid.size.x, facts.grid.size.y,
+                                          facts.grid.size.z, name(facts.type))});
     if (usesTransferFunction(scene.mode)) addTransferTable(plan, scene, facts);
     if (plan.features.lit)
-        plan.resources.push_back({"lights", "uniform block", kBytesPerLight * static_cast<std::uint64_t>(plan.features.lights),
-                                  fmt::format("{} light{}", plan.features.lights, plan.features.lights == 1 ? "" : "s")});
+        plan.resources.push_back(
+            {"lights", "uniform block", kBytesPerLight * static_cast<std::uint64_t>(plan.features.lights),
+             fmt::format("{} light{}", plan.features.lights, plan.features.lights == 1 ? "" : "s")});
     for (const auto& pass : plan.passes) plan.totalBytes += pass.bytes;
     for (const auto& resource : plan.resources) plan.totalBytes += resource.bytes;
     return plan;

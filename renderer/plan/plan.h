@@ -30,46 +30,47 @@ struct StageRow {
 };
 
 struct ResourceRow {
-    std::string name;     ///< "volume", "transfer table", "lights".
-    std::string kind;     ///< "texture 3D R16", "uniform block".
+    std::string name;  ///< "volume", "transfer table", "lights".
+    std::string kind;  ///< "texture 3D R16", "uniform block".
     std::uint64_t bytes = 0;
     std::string reason;
     bool operator==(const ResourceRow&) const = default;
 };
 
 struct PassRow {
-    std::string name;     ///< "ray casting".
-    std::string target;   ///< "1024x768 RGBA32F".
+    std::string name;    ///< "ray casting".
+    std::string target;  ///< "1024x768 RGBA32F".
     std::uint64_t bytes = 0;
     std::string reason;
     bool operator==(const PassRow&) const = default;
 };
 
 struct LeftOutRow {
-    std::string what;     ///< "gradient".
-    std::string reason;   ///< "no light".
+    std::string what;    ///< "gradient".
+    std::string reason;  ///< "no light".
     bool operator==(const LeftOutRow&) const = default;
 };
 
-/// What drawing a scene needs, and nothing else: what is not listed is neither compiled, allocated, computed nor bound.
-/// Made without a GPU.
+/// What drawing a scene needs, and nothing else: what is not listed is neither compiled, allocated, computed
+/// nor bound. Made without a GPU.
 struct Plan {
     Features features;
     std::vector<StageRow> stages;
     std::vector<PassRow> passes;
     std::vector<ResourceRow> resources;
     std::vector<LeftOutRow> leftOut;
-    int tableSize = 0;                      ///< Entries of the transfer table, 0 without one.
-    double tableWorstError = 0.0;           ///< Largest difference of table and function: colour channel or opacity of one step.
+    int tableSize = 0;  ///< Entries of the transfer table, 0 without one.
+    double tableWorstError =
+        0.0;  ///< Largest difference of table and function: colour channel or opacity of one step.
     double stepMm = 0.0;
-    double samplesPerRay = 0.0;             ///< Upper bound: volume diagonal / step.
-    double earlyTerminationBound = 0.0;     ///< Error bound in display units; 0 when rays never stop early.
-    std::uint64_t totalBytes = 0;           ///< GPU memory of passes and resources.
+    double samplesPerRay = 0.0;          ///< Upper bound: volume diagonal / step.
+    double earlyTerminationBound = 0.0;  ///< Error bound in display units; 0 when rays never stop early.
+    std::uint64_t totalBytes = 0;        ///< GPU memory of passes and resources.
     bool operator==(const Plan&) const = default;
 };
 
-/// Precondition: the scene is completed(). Errors: InvalidArgument, Unsupported (more than one volume, grids that
-/// are not finite), TooLarge (a size beyond `limits`).
+/// Precondition: the scene is completed(). Errors: InvalidArgument, Unsupported (more than one volume, grids
+/// that are not finite), TooLarge (a size beyond `limits`).
 struct DeviceLimits {
     int max3dTextureSize = 2048;
     std::uint64_t maxTextureBytes = 16ull << 30;
@@ -77,7 +78,8 @@ struct DeviceLimits {
 [[nodiscard]] Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
                                     const DeviceLimits& limits = {});
 
-/// Size of the float render target of a picture: as wide, and as high as 128 MB allow. Larger pictures are drawn in bands.
+/// Size of the float render target of a picture: as wide, and as high as 128 MB allow. Larger pictures are
+/// drawn in bands.
 [[nodiscard]] glm::ivec2 targetSize(glm::ivec2 picture);
 
 [[nodiscard]] std::string planText(const Plan& plan);

@@ -18,19 +18,22 @@ std::string sizeText(std::uint64_t bytes) {
 
 std::string planText(const Plan& plan) {
     std::string text = "stages\n";
-    for (const auto& row : plan.stages) text += fmt::format("  {:<12} {:<22} {}\n", row.stage, row.variant, row.reason);
+    for (const auto& row : plan.stages)
+        text += fmt::format("  {:<12} {:<22} {}\n", row.stage, row.variant, row.reason);
     text += "passes\n";
     for (const auto& row : plan.passes)
-        text += fmt::format("  {:<15} {:<22} {:>10}  {}\n", row.name, row.target, sizeText(row.bytes), row.reason);
+        text += fmt::format("  {:<15} {:<22} {:>10}  {}\n", row.name, row.target, sizeText(row.bytes),
+                            row.reason);
     text += "resources\n";
     for (const auto& row : plan.resources)
-        text += fmt::format("  {:<15} {:<22} {:>10}  {}\n", row.name, row.kind, sizeText(row.bytes), row.reason);
+        text +=
+            fmt::format("  {:<15} {:<22} {:>10}  {}\n", row.name, row.kind, sizeText(row.bytes), row.reason);
     text += "left out\n";
     for (const auto& row : plan.leftOut) text += fmt::format("  {:<15} {}\n", row.what, row.reason);
     text += fmt::format("step {:g} mm, at most {:.0f} samples a ray\n", plan.stepMm, plan.samplesPerRay);
     if (plan.earlyTerminationBound > 0.0)
-        text += fmt::format("early termination changes a pixel by at most {:.2g} ({:.2f} grey levels)\n", plan.earlyTerminationBound,
-                            plan.earlyTerminationBound * 255.0);
+        text += fmt::format("early termination changes a pixel by at most {:.2g} ({:.2f} grey levels)\n",
+                            plan.earlyTerminationBound, plan.earlyTerminationBound * 255.0);
     text += fmt::format("GPU memory {}\n", sizeText(plan.totalBytes));
     return text;
 }
@@ -51,7 +54,9 @@ nlohmann::ordered_json planJson(const Plan& plan) {
     list("resources", plan.resources, [](const ResourceRow& row) {
         return Json{{"resource", row.name}, {"kind", row.kind}, {"bytes", row.bytes}, {"reason", row.reason}};
     });
-    list("leftOut", plan.leftOut, [](const LeftOutRow& row) { return Json{{"what", row.what}, {"reason", row.reason}}; });
+    list("leftOut", plan.leftOut, [](const LeftOutRow& row) {
+        return Json{{"what", row.what}, {"reason", row.reason}};
+    });
     json["stepMm"] = plan.stepMm;
     json["samplesPerRay"] = plan.samplesPerRay;
     json["earlyTerminationBound"] = plan.earlyTerminationBound;

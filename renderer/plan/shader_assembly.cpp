@@ -6,8 +6,8 @@
 #include <regex>
 #include <sstream>
 
-#include "renderer/plan/stages.h"
 #include "embedded/renderer_shaders.h"
+#include "renderer/plan/stages.h"
 #include "scene/check.h"
 
 namespace pellucid::renderer {
@@ -16,10 +16,16 @@ namespace {
 
 constexpr const char* kVersionLine = "#version 450 core\n";
 
-/// Collects text, keeping the `//@when STAGE ... //@end` lines of chosen stages only and a #line before each run.
+/// Drivers report lines faithfully but not all report the file number of `#line N K` (Mesa 22.3 says 0 for
+/// every file): the file is told by the thousands of the line.
+constexpr int kLinesPerFile = 1000;
+
+/// Collects text, keeping the `//@when STAGE ... //@end` lines of chosen stages only and a #line before each
+/// run.
 class Assembler {
 public:
-    Assembler(const Features& features, const std::vector<StageRow>& rows) : m_features(features), m_rows(rows) {}
+    Assembler(const Features& features, const std::vector<StageRow>& rows)
+        : m_features(features), m_rows(rows) {}
 
     ShaderText build() {
         m_text.vertex = kVersionLine + shaderFile("engine/fullscreen.vert");
@@ -38,13 +44,16 @@ public:
 
 private:
     bool has(std::string_view stage) const {
-        return std::any_of(m_rows.begin(), m_rows.end(), [&](const StageRow& row) { return row.stage == stage; });
+        return std::any_of(m_rows.begin(), m_rows.end(),
+                           [&](const StageRow& row) { return row.stage == stage; });
     }
 
     void append(const std::string& path) {
         const std::size_t file = m_text.files.size();
         m_text.files.push_back(path);
-        const auto mark = [&](int line) { m_out << "#line " << line << ' ' << file << '\n'; };
+        const auto mark = [&](int line) {
+            m_out << "#line " << static_cast<int>(file) * kLinesPerFile + line << '\n';
+        };
         mark(1);
         std::istringstream lines(shaderFile(path));
         std::string line;
@@ -54,6 +63,7 @@ private:
             const std::string_view content = std::string_view(line).substr(start);
             if (content.starts_with("//@when ")) {
                 keep = has(content.substr(8));
+                if (keep) mark(number + 1);
             } else if (content == "//@end") {
                 keep = true;
                 mark(number + 1);
@@ -90,16 +100,17 @@ ShaderText assembleShader(const Features& features, const std::vector<StageRow>&
 }
 
 std::string locateInFiles(const std::string& driverLog, const std::vector<std::string>& files) {
-    // Mesa and Intel: "3:12(5): error ..."; NVIDIA: "3(12) : error ...".
-    static const std::regex place(R"((^|\n)(\d+)(?::(\d+)\(\d+\)|\((\d+)\)))");
+    // Mesa and Intel: "0:3012(5): error ..."; NVIDIA: "0(3012) : error ...".
+    static const std::regex place(R"((^|\n)\d+(?::(\d+)\(\d+\)|\((\d+)\)))");
     std::string located;
     auto rest = driverLog.cbegin();
     std::smatch match;
     while (std::regex_search(rest, driverLog.cend(), match, place)) {
         located.append(rest, match[0].first);
-        const std::size_t file = std::stoul(match[2]);
-        const std::string line = match[3].matched ? match[3].str() : match[4].str();
-        located += match[1].str() + (file < files.size() ? files[file] : match[2].str()) + ":" + line;
+        const int number = std::stoi(match[2].matched ? match[2] : match[3]);
+        const auto file = static_cast<std::size_t>(number / kLinesPerFile);
+        located += fmt::format("{}{}:{}", match[1].str(), file < files.size() ? files[file] : "?",
+                               number % kLinesPerFile);
         rest = match[0].second;
     }
     located.append(rest, driverLog.cend());

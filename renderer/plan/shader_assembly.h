@@ -14,7 +14,7 @@ namespace pellucid::renderer {
 struct ShaderText {
     std::string vertex;
     std::string fragment;
-    std::vector<std::string> files;     ///< `#line N K` in the text means line N of files[K].
+    std::vector<std::string> files;     ///< `#line 1000 * K + N` in the text means line N of files[K].
     std::vector<std::string> uniforms;  ///< Declared plain uniforms and samplers.
     std::vector<std::string> blocks;    ///< Declared uniform blocks.
 };
@@ -22,7 +22,7 @@ struct ShaderText {
 /// Puts the skeleton and the files of the rows together. Pure: the same features give the same bytes.
 [[nodiscard]] ShaderText assembleShader(const Features& features, const std::vector<StageRow>& rows);
 
-/// A driver's log with "K:N(column)" or "K(N)" replaced by the file's name and line.
+/// A driver's log with "0:N(column)" or "0(N)" replaced by the file's name and line.
 [[nodiscard]] std::string locateInFiles(const std::string& driverLog, const std::vector<std::string>& files);
 
 /// Text of one shader file by its path below renderer/shaders ("compose/over.glsl").

@@ -11,16 +11,28 @@ namespace pellucid::renderer {
 
 std::span<const StageVariant> stageTable() {
     static const std::vector<StageVariant> table{
-        {"ray", "perspective",
-         {"rayBase", "rayAnchorRight", "rayAnchorUp", "rayRight", "rayUp", "rayForward", "rayNearFromAnchorMm"}, {}, {}},
-        {"ray", "orthographic", {"rayBase", "rayRight", "rayUp", "rayForward", "rayNearFromAnchorMm"}, {}, {}},
+        {"ray",
+         "perspective",
+         {"rayBase", "rayAnchorRight", "rayAnchorUp", "rayRight", "rayUp", "rayForward",
+          "rayNearFromAnchorMm"},
+         {},
+         {}},
+        {"ray",
+         "orthographic",
+         {"rayBase", "rayRight", "rayUp", "rayForward", "rayNearFromAnchorMm"},
+         {},
+         {}},
         {"reconstruct", "nearest", {"volumeTexture"}, {}, {}},
         {"reconstruct", "trilinear", {"volumeTexture"}, {}, {}},
         {"reconstruct", "tricubic_bspline", {"volumeTexture", "volumeSize"}, {}, {}},
         {"reconstruct", "catmull_rom", {"volumeTexture", "volumeSize"}, {}, {}},
         {"classify", "tf1d", {"transferTable", "tableFromValue", "extinctionPerMm"}, {}, {}},
         {"classify", "window", {"windowFromValue"}, {}, {}},
-        {"gradient", "central_difference", {"voxelStep", "gradientFromIndex", "gradientFloor"}, {}, {"reconstruct"}},
+        {"gradient",
+         "central_difference",
+         {"voxelStep", "gradientFromIndex", "gradientFloor"},
+         {},
+         {"reconstruct"}},
         {"shade", "blinn_phong", {"material"}, {"Lights"}, {"gradient"}},
         {"terminate", "transmittance", {"terminationTransmittance"}, {}, {}},
         {"compose", "over", {}, {}, {"classify"}},
@@ -64,10 +76,14 @@ StageRow rayRow(Projection projection) {
 
 StageRow reconstructRow(Filter filter) {
     switch (filter) {
-        case Filter::Nearest: return {"reconstruct", "nearest", "filter nearest"};
-        case Filter::Trilinear: return {"reconstruct", "trilinear", "filter trilinear"};
-        case Filter::TricubicBSpline: return {"reconstruct", "tricubic_bspline", "filter tricubic-bspline"};
-        case Filter::CatmullRom: break;
+        case Filter::Nearest:
+            return {"reconstruct", "nearest", "filter nearest"};
+        case Filter::Trilinear:
+            return {"reconstruct", "trilinear", "filter trilinear"};
+        case Filter::TricubicBSpline:
+            return {"reconstruct", "tricubic_bspline", "filter tricubic-bspline"};
+        case Filter::CatmullRom:
+            break;
     }
     return {"reconstruct", "catmull_rom", "filter catmull-rom"};
 }
@@ -76,15 +92,24 @@ StageRow composeRow(const Features& features) {
     const std::string reason = fmt::format("mode {}", name(features.mode));
     const auto row = [&](const char* variant) { return StageRow{"compose", variant, reason}; };
     switch (features.mode) {
-        case Mode::Composite: return row("over");
-        case Mode::Mip: return row("mip");
-        case Mode::MinIp: return row("minip");
-        case Mode::Average: return row("average");
-        case Mode::XRay: return row(features.xray == XRayDisplay::Opacity ? "xray_opacity" : "xray_transmittance");
-        case Mode::Emission: return row("emission");
-        case Mode::FirstHit: return row("first_hit");
-        case Mode::Isosurface: return row("isosurface");
-        case Mode::Slice: break;
+        case Mode::Composite:
+            return row("over");
+        case Mode::Mip:
+            return row("mip");
+        case Mode::MinIp:
+            return row("minip");
+        case Mode::Average:
+            return row("average");
+        case Mode::XRay:
+            return row(features.xray == XRayDisplay::Opacity ? "xray_opacity" : "xray_transmittance");
+        case Mode::Emission:
+            return row("emission");
+        case Mode::FirstHit:
+            return row("first_hit");
+        case Mode::Isosurface:
+            return row("isosurface");
+        case Mode::Slice:
+            break;
     }
     return row("slice");
 }
@@ -112,17 +137,20 @@ StageChoice chooseStages(const Features& features) {
     }
     if (features.lit) {
         rows.push_back({"gradient", "central_difference", "shading needs a normal"});
-        rows.push_back({"shade", "blinn_phong", fmt::format("the scene has {} light{}", features.lights,
-                                                            features.lights == 1 ? "" : "s")});
+        rows.push_back(
+            {"shade", "blinn_phong",
+             fmt::format("the scene has {} light{}", features.lights, features.lights == 1 ? "" : "s")});
     } else {
-        const std::string reason = usesLights(features.mode) ? "the scene has no light" : "the mode is not lit";
+        const std::string reason =
+            usesLights(features.mode) ? "the scene has no light" : "the mode is not lit";
         for (const char* what : {"gradient", "shade", "lights"}) leftOut.push_back({what, reason});
     }
     if (features.earlyTermination) {
         rows.push_back({"terminate", "transmittance", "rays stop when nothing behind can show"});
     } else {
-        leftOut.push_back({"terminate", features.mode == Mode::Composite ? "the bound is 0: every ray goes on to its end"
-                                                                          : "the mode needs the whole ray"});
+        leftOut.push_back({"terminate", features.mode == Mode::Composite
+                                            ? "the bound is 0: every ray goes on to its end"
+                                            : "the mode needs the whole ray"});
     }
     rows.push_back(composeRow(features));
     rows.push_back(traverseRow(features.mode));

@@ -10,8 +10,8 @@
 
 namespace pellucid::renderer {
 
-/// One row of the stage table: a shader file and everything it declares. The lint test holds the table against the
-/// folder renderer/shaders, the GL test against what the driver reports.
+/// One row of the stage table: a shader file and everything it declares. The lint test holds the table
+/// against the folder renderer/shaders, the GL test against what the driver reports.
 struct StageVariant {
     const char* stage;                  ///< Folder.
     const char* variant;                ///< File without ending.

@@ -13,7 +13,7 @@ namespace pellucid::renderer {
 
 namespace {
 
-constexpr int kMaxEntries = 16384;   // GL_MAX_TEXTURE_SIZE guaranteed by OpenGL 4.5
+constexpr int kMaxEntries = 16384;  // GL_MAX_TEXTURE_SIZE guaranteed by OpenGL 4.5
 constexpr double kWanted = 1.0 / 4096.0;
 
 OpticalSample interpolated(const OpticalSample& a, const OpticalSample& b, double f) {
@@ -37,14 +37,16 @@ double worstError(const TransferFunction1D& function, double lo, double hi, int 
         if (point.value < lo || point.value > hi) continue;
         const double x = (point.value - lo) / spacing;
         const double i = std::min(std::floor(x), static_cast<double>(size - 2));
-        const auto table = interpolated(evaluate(function, lo + i * spacing), evaluate(function, lo + (i + 1) * spacing), x - i);
+        const auto table = interpolated(evaluate(function, lo + i * spacing),
+                                        evaluate(function, lo + (i + 1) * spacing), x - i);
         // The point itself covers both sides of a step: each point of a pair at one value is visited.
         worst = std::max(worst, difference(table, {point.color, point.extinction}, stepInUnits));
     }
     return worst;
 }
 
-/// Sizes to try: powers of two, and the one that puts an entry on every integer (control points mostly are integers).
+/// Sizes to try: powers of two, and the one that puts an entry on every integer (control points mostly are
+/// integers).
 std::vector<int> candidates(double lo, double hi) {
     std::vector<int> sizes{256, 512, 1024, 2048, 4096, 8192, kMaxEntries};
     if (lo == std::floor(lo) && hi == std::floor(hi) && hi - lo < kMaxEntries) {
@@ -62,7 +64,8 @@ TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, d
     layout.hi = std::min(values.hi, function.points.back().value);
     if (!(layout.hi > layout.lo)) {
         // Nothing varies within reach: all values lie at, before or behind one point.
-        const double value = std::clamp(values.lo, function.points.front().value, function.points.back().value);
+        const double value =
+            std::clamp(values.lo, function.points.front().value, function.points.back().value);
         return {value, value, 2, 0.0};
     }
     double best = std::numeric_limits<double>::infinity();
@@ -82,7 +85,8 @@ TransferFunction1D inCompositingSpace(const TransferFunction1D& function, Compos
     TransferFunction1D converted = function;
     if (space == CompositingSpace::Display) return converted;
     for (auto& point : converted.points)
-        for (int channel = 0; channel < 3; ++channel) point.color[channel] = linearFromDisplay(point.color[channel]);
+        for (int channel = 0; channel < 3; ++channel)
+            point.color[channel] = linearFromDisplay(point.color[channel]);
     return converted;
 }
 

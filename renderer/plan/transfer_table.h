@@ -16,22 +16,25 @@ struct TableLayout {
     double lo = 0.0;
     double hi = 1.0;
     int size = 2;
-    double worstError = 0.0;   ///< Largest difference between the table, linearly interpolated, and the function: opacity or associated
-                               ///< colour of one step. Exact: it occurs at a control point.
+    double worstError =
+        0.0;  ///< Largest difference between the table, linearly interpolated, and the function: opacity or
+              ///< associated colour of one step. Exact: it occurs at a control point.
 };
 
-/// The smallest table whose worst error is below 1/4096 (a sixteenth of a grey level), at most 16384 entries; among those too
-/// coarse, the best. `values` is the physical range the filter can produce.
-[[nodiscard]] TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, double stepInUnits);
+/// The smallest table whose worst error is below 1/4096 (a sixteenth of a grey level), at most 16384 entries;
+/// among those too coarse, the best. `values` is the physical range the filter can produce.
+[[nodiscard]] TableLayout layoutTable(const TransferFunction1D& function, ValueRange values,
+                                      double stepInUnits);
 
 /// The same for a completed() scene with one volume.
 [[nodiscard]] TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts);
 
 /// The function with control-point colours decoded to light-linear when that is the compositing space.
-[[nodiscard]] TransferFunction1D inCompositingSpace(const TransferFunction1D& function, CompositingSpace space);
+[[nodiscard]] TransferFunction1D inCompositingSpace(const TransferFunction1D& function,
+                                                    CompositingSpace space);
 
-/// Physical values a filter can make of voxels in `range`: Catmull-Rom overshoots (its weights' absolute sum is at most
-/// 1.25 an axis, 1.953125 in three), the others do not.
+/// Physical values a filter can make of voxels in `range`: Catmull-Rom overshoots (its weights' absolute sum
+/// is at most 1.25 an axis, 1.953125 in three), the others do not.
 [[nodiscard]] ValueRange reachableValues(ValueRange range, Filter filter);
 
 }  // namespace pellucid::renderer

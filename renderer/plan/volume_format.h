@@ -6,8 +6,8 @@
 
 namespace pellucid::renderer {
 
-/// 8- and 16-bit data become 16-bit normalised texels, exactly (8-bit texels would be interpolated in 8 bits by some
-/// drivers); everything else becomes 32-bit float, mapped to [0, 1] over its range.
+/// 8- and 16-bit data become 16-bit normalised texels, exactly (8-bit texels would be interpolated in 8 bits
+/// by some drivers); everything else becomes 32-bit float, mapped to [0, 1] over its range.
 [[nodiscard]] bool isStoredIn16Bits(VoxelType type);
 [[nodiscard]] const char* textureFormatName(VoxelType type);
 [[nodiscard]] std::uint64_t textureBytes(const VolumeFacts& facts);
@@ -18,6 +18,5 @@ struct StoredFromTexel {
     double offset = 0.0;
 };
 [[nodiscard]] StoredFromTexel storedFromTexel(VoxelType type, ValueRange storedRange);
-
 
 }  // namespace pellucid::renderer

@@ -23,11 +23,14 @@ bool toFront(std::list<T>& entries, const Matches& matches) {
     return true;
 }
 
-bool sameLayout(const TableLayout& a, const TableLayout& b) { return a.lo == b.lo && a.hi == b.hi && a.size == b.size; }
+bool sameLayout(const TableLayout& a, const TableLayout& b) {
+    return a.lo == b.lo && a.hi == b.hi && a.size == b.size;
+}
 
 }  // namespace
 
-Result<const VolumeTexture*> ResourceStore::volume(const VolumePtr& volume, int component, const Progress& progress) {
+Result<const VolumeTexture*> ResourceStore::volume(const VolumePtr& volume, int component,
+                                                   const Progress& progress) {
     m_volumes.remove_if([](const VolumeEntry& entry) { return entry.volume.expired(); });
     for (const auto& entry : m_volumes)
         if (entry.component == component && entry.volume.lock() == volume) return &entry.texture;
@@ -38,12 +41,15 @@ Result<const VolumeTexture*> ResourceStore::volume(const VolumePtr& volume, int 
     return &m_volumes.front().texture;
 }
 
-const TransferTexture& ResourceStore::table(const TransferFunction1D& function, CompositingSpace space, const TableLayout& layout) {
+const TransferTexture& ResourceStore::table(const TransferFunction1D& function, CompositingSpace space,
+                                            const TableLayout& layout) {
     const bool known = toFront(m_tables, [&](const TableEntry& entry) {
-        return entry.space == space && sameLayout(entry.table.layout, layout) && entry.function.points == function.points;
+        return entry.space == space && sameLayout(entry.table.layout, layout) &&
+               entry.function.points == function.points;
     });
     if (!known) {
-        m_tables.push_front({function, space, uploadTransferTable(inCompositingSpace(function, space), layout)});
+        m_tables.push_front(
+            {function, space, uploadTransferTable(inCompositingSpace(function, space), layout)});
         ++counts.transferTables;
         if (m_tables.size() > kKeptTables) m_tables.pop_back();
     }
@@ -61,12 +67,16 @@ const GlBuffer& ResourceStore::lights(const std::vector<glm::vec4>& block) {
 }
 
 Result<const ResourceStore::Target*> ResourceStore::target(glm::ivec2 size) {
-    if (toFront(m_targets, [&](const Target& target) { return target.size == size; })) return &m_targets.front();
+    if (toFront(m_targets, [&](const Target& target) { return target.size == size; }))
+        return &m_targets.front();
     Target target{createTexture(GL_TEXTURE_2D), createFramebuffer(), size};
     glTextureStorage2D(target.color.id(), 1, GL_RGBA32F, size.x, size.y);
     glNamedFramebufferTexture(target.framebuffer.id(), GL_COLOR_ATTACHMENT0, target.color.id(), 0);
-    if (glCheckNamedFramebufferStatus(target.framebuffer.id(), GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        return fail(ErrorCode::Gpu, fmt::format("the driver cannot draw into a float picture of {} x {} pixels", size.x, size.y));
+    if (glCheckNamedFramebufferStatus(target.framebuffer.id(), GL_DRAW_FRAMEBUFFER) !=
+        GL_FRAMEBUFFER_COMPLETE)
+        return fail(
+            ErrorCode::Gpu,
+            fmt::format("the driver cannot draw into a float picture of {} x {} pixels", size.x, size.y));
     m_targets.push_front(std::move(target));
     if (m_targets.size() > kKeptTargets) m_targets.pop_back();
     return &m_targets.front();

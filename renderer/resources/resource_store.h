@@ -11,12 +11,14 @@
 
 namespace pellucid::renderer {
 
-/// GPU objects by the values they depend on: an edit rebuilds what depends on it and nothing else. Volumes go when nobody
-/// else holds them, tables when newer ones have pushed them out.
+/// GPU objects by the values they depend on: an edit rebuilds what depends on it and nothing else. Volumes go
+/// when nobody else holds them, tables when newer ones have pushed them out.
 class ResourceStore {
 public:
-    [[nodiscard]] Result<const VolumeTexture*> volume(const VolumePtr& volume, int component, const Progress& progress);
-    [[nodiscard]] const TransferTexture& table(const TransferFunction1D& function, CompositingSpace space, const TableLayout& layout);
+    [[nodiscard]] Result<const VolumeTexture*> volume(const VolumePtr& volume, int component,
+                                                      const Progress& progress);
+    [[nodiscard]] const TransferTexture& table(const TransferFunction1D& function, CompositingSpace space,
+                                               const TableLayout& layout);
     /// A std140 block with the scene's lights; kept while the lights are the same.
     [[nodiscard]] const GlBuffer& lights(const std::vector<glm::vec4>& block);
     /// The float target, kept while its size is the same.
@@ -42,8 +44,8 @@ private:
         TransferTexture table;
     };
     std::list<VolumeEntry> m_volumes;
-    std::list<TableEntry> m_tables;   // most recently used first
-    std::list<Target> m_targets;      // most recently used first
+    std::list<TableEntry> m_tables;  // most recently used first
+    std::list<Target> m_targets;     // most recently used first
     std::vector<glm::vec4> m_lightBlock;
     GlBuffer m_lights;
 };

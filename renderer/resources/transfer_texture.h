@@ -13,6 +13,7 @@ struct TransferTexture {
     TableLayout layout;
 };
 
-[[nodiscard]] TransferTexture uploadTransferTable(const TransferFunction1D& function, const TableLayout& layout);
+[[nodiscard]] TransferTexture uploadTransferTable(const TransferFunction1D& function,
+                                                  const TableLayout& layout);
 
 }  // namespace pellucid::renderer

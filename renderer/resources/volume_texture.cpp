@@ -12,14 +12,24 @@ namespace pellucid::renderer {
 
 namespace {
 
-/// Voxels a slab: converted and handed to the driver at once; small enough for the cache, large enough for few calls.
+/// Voxels a slab: converted and handed to the driver at once; small enough for the cache, large enough for
+/// few calls.
 constexpr std::int64_t kSlabVoxels = 1 << 20;
 
-/// A stored value as an R16 texel, exactly: u = texel / 65535 and stored = u * scale + offset of storedFromTexel().
-std::uint16_t texel16(std::uint8_t v) { return static_cast<std::uint16_t>(v * 257); }
-std::uint16_t texel16(std::int8_t v) { return static_cast<std::uint16_t>((v + 128) * 257); }
-std::uint16_t texel16(std::uint16_t v) { return v; }
-std::uint16_t texel16(std::int16_t v) { return static_cast<std::uint16_t>(v + 32768); }
+/// A stored value as an R16 texel, exactly: u = texel / 65535 and stored = u * scale + offset of
+/// storedFromTexel().
+std::uint16_t texel16(std::uint8_t v) {
+    return static_cast<std::uint16_t>(v * 257);
+}
+std::uint16_t texel16(std::int8_t v) {
+    return static_cast<std::uint16_t>((v + 128) * 257);
+}
+std::uint16_t texel16(std::uint16_t v) {
+    return v;
+}
+std::uint16_t texel16(std::int16_t v) {
+    return static_cast<std::uint16_t>(v + 32768);
+}
 
 /// Everything else as float over its range.
 struct FloatTexel {
@@ -32,8 +42,8 @@ struct FloatTexel {
 };
 
 template <class Texel, class T, class Convert>
-Result<void> uploadSlabs(const Volume& volume, int component, std::span<const T> voxels, GLuint texture, GLenum type,
-                         const Convert& convert, const Progress& progress) {
+Result<void> uploadSlabs(const Volume& volume, int component, std::span<const T> voxels, GLuint texture,
+                         GLenum type, const Convert& convert, const Progress& progress) {
     const auto size = volume.grid().size;
     const std::int64_t plane = static_cast<std::int64_t>(size.x) * size.y;
     const int depth = static_cast<int>(std::clamp<std::int64_t>(kSlabVoxels / plane, 1, size.z));
@@ -43,7 +53,8 @@ Result<void> uploadSlabs(const Volume& volume, int component, std::span<const T>
         if (!goOn(progress, static_cast<double>(z) / size.z, "uploading the volume"))
             return fail(ErrorCode::Cancelled, "the upload was cancelled");
         const int count = std::min(depth, size.z - z);
-        const T* from = voxels.data() + static_cast<std::size_t>(plane * z) * stride + static_cast<std::size_t>(component);
+        const T* from = voxels.data() + static_cast<std::size_t>(plane * z) * stride +
+                        static_cast<std::size_t>(component);
         const auto total = static_cast<std::size_t>(plane * count);
         for (std::size_t i = 0; i < total; ++i) slab[i] = convert(from[i * stride]);
         glTextureSubImage3D(texture, 0, 0, 0, z, size.x, size.y, count, GL_RED, type, slab.data());
@@ -53,17 +64,22 @@ Result<void> uploadSlabs(const Volume& volume, int component, std::span<const T>
 
 Result<GlTexture> allocate(glm::ivec3 size, GLenum format) {
     // The proxy answers whether size and format are possible without taking the memory.
-    glTexImage3D(GL_PROXY_TEXTURE_3D, 0, static_cast<GLint>(format), size.x, size.y, size.z, 0, GL_RED, GL_FLOAT, nullptr);
+    glTexImage3D(GL_PROXY_TEXTURE_3D, 0, static_cast<GLint>(format), size.x, size.y, size.z, 0, GL_RED,
+                 GL_FLOAT, nullptr);
     GLint width = 0;
     glGetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &width);
     if (width != size.x)
-        return fail(ErrorCode::TooLarge, fmt::format("the OpenGL driver cannot hold a volume of {} x {} x {} voxels", size.x, size.y, size.z));
+        return fail(ErrorCode::TooLarge,
+                    fmt::format("the OpenGL driver cannot hold a volume of {} x {} x {} voxels", size.x,
+                                size.y, size.z));
     while (glGetError() != GL_NO_ERROR) {
     }
     GlTexture texture = createTexture(GL_TEXTURE_3D);
     glTextureStorage3D(texture.id(), 1, format, size.x, size.y, size.z);
     if (glGetError() != GL_NO_ERROR)
-        return fail(ErrorCode::Gpu, fmt::format("the graphics memory cannot hold a volume of {} x {} x {} voxels", size.x, size.y, size.z));
+        return fail(ErrorCode::Gpu,
+                    fmt::format("the graphics memory cannot hold a volume of {} x {} x {} voxels", size.x,
+                                size.y, size.z));
     return texture;
 }
 
@@ -79,7 +95,8 @@ Result<VolumeTexture> uploadVolume(const Volume& volume, int component, const Pr
     const GLuint id = texture->id();
     auto uploaded = visitVoxels(volume, [&]<class T>(std::span<const T> voxels) -> Result<void> {
         if constexpr (std::is_integral_v<T> && sizeof(T) <= 2)
-            return uploadSlabs<std::uint16_t>(volume, component, voxels, id, GL_UNSIGNED_SHORT, [](T v) { return texel16(v); }, progress);
+            return uploadSlabs<std::uint16_t>(
+                volume, component, voxels, id, GL_UNSIGNED_SHORT, [](T v) { return texel16(v); }, progress);
         else
             return uploadSlabs<float>(volume, component, voxels, id, GL_FLOAT, FloatTexel{map}, progress);
     });

@@ -14,7 +14,7 @@ struct VolumeTexture {
     GlTexture texture;
     StoredFromTexel storedFromTexel;
     ValueMapping mapping;
-    double texelExtent = 0.0;   ///< Largest minus smallest u of the data.
+    double texelExtent = 0.0;  ///< Largest minus smallest u of the data.
 
     /// u of a physical value; not clamped.
     [[nodiscard]] double texelFromPhysical(double physical) const {
@@ -26,7 +26,9 @@ struct VolumeTexture {
 };
 
 /// Uploads slab by slab; values that are not finite become the smallest finite one.
-/// Errors: TooLarge when the driver refuses the size beforehand (proxy test), Gpu when memory runs out, Cancelled.
-[[nodiscard]] Result<VolumeTexture> uploadVolume(const Volume& volume, int component, const Progress& progress = {});
+/// Errors: TooLarge when the driver refuses the size beforehand (proxy test), Gpu when memory runs out,
+/// Cancelled.
+[[nodiscard]] Result<VolumeTexture> uploadVolume(const Volume& volume, int component,
+                                                 const Progress& progress = {});
 
 }  // namespace pellucid::renderer

@@ -11,8 +11,8 @@
 
 namespace pellucid::test {
 
-/// A headless context for each test. Without OpenGL the tests are skipped, unless PELLUCID_REQUIRE_GL=1: then they fail.
-/// Whatever the driver calls an error fails the test.
+/// A headless context for each test. Without OpenGL the tests are skipped, unless PELLUCID_REQUIRE_GL=1: then
+/// they fail. Whatever the driver calls an error fails the test.
 class GlTest : public testing::Test {
 protected:
     void SetUp() override {

@@ -41,9 +41,10 @@ TEST(Plan, ALightAddsExactlyGradientShadeAndLights) {
         added.erase(found);
     }
     EXPECT_THAT(added, testing::UnorderedElementsAre("gradient", "shade", "lights"));
-    EXPECT_EQ(lit.totalBytes - unlit.totalBytes, 32u);   // one light: two vec4
+    EXPECT_EQ(lit.totalBytes - unlit.totalBytes, 32u);  // one light: two vec4
     const auto leftOut = [](const Plan& plan, const char* what) {
-        return std::any_of(plan.leftOut.begin(), plan.leftOut.end(), [&](const LeftOutRow& row) { return row.what == what; });
+        return std::any_of(plan.leftOut.begin(), plan.leftOut.end(),
+                           [&](const LeftOutRow& row) { return row.what == what; });
     };
     for (const char* what : {"gradient", "shade", "lights"}) {
         EXPECT_TRUE(leftOut(unlit, what)) << what;
@@ -53,8 +54,8 @@ TEST(Plan, ALightAddsExactlyGradientShadeAndLights) {
 
 TEST(Plan, BytesAreThoseOfTheVolumeAndThePicture) {
     const Plan plan = planOf(rampScene());
-    EXPECT_EQ(plan.resources[0].bytes, 512ull * 512 * 300 * 2);   // int16 as R16
-    EXPECT_EQ(plan.passes[0].bytes, 48ull * 40 * 16);             // RGBA32F
+    EXPECT_EQ(plan.resources[0].bytes, 512ull * 512 * 300 * 2);  // int16 as R16
+    EXPECT_EQ(plan.passes[0].bytes, 48ull * 40 * 16);            // RGBA32F
     EXPECT_EQ(plan.resources[1].bytes, static_cast<std::uint64_t>(plan.tableSize) * 16);
     VolumeFacts floats = kFacts;
     floats.type = VoxelType::Float64;
@@ -94,7 +95,8 @@ TEST(Plan, RefusalsSayWhatAndHowMuch) {
     EXPECT_THAT(refusal(scene, {kFacts, kFacts}), testing::HasSubstr("2 volumes"));
     VolumeFacts tooLarge = kFacts;
     tooLarge.grid.size.x = 5000;
-    EXPECT_THAT(refusal(scene, {tooLarge}), testing::AllOf(testing::HasSubstr("5000"), testing::HasSubstr("2048")));
+    EXPECT_THAT(refusal(scene, {tooLarge}),
+                testing::AllOf(testing::HasSubstr("5000"), testing::HasSubstr("2048")));
     VolumeFacts unbounded = kFacts;
     unbounded.physicalRange = {-1.7e308, 1.7e308};
     EXPECT_THAT(refusal(scene, {unbounded}), testing::HasSubstr("float64"));

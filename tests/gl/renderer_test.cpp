@@ -53,7 +53,8 @@ TEST_F(RendererTest, TileSizesDoNotShow) {
 }
 
 TEST_F(RendererTest, BandsJoinWithoutASeam) {
-    // 16384 x 600 pixels are two bands of 512 rows; the same rays in a narrower picture of the same height are the middle columns.
+    // 16384 x 600 pixels are two bands of 512 rows; the same rays in a narrower picture of the same height
+    // are the middle columns.
     auto renderer = Renderer::headless().value();
     Scene scene = test::rampScene(Mode::Slice);
     scene.camera.projection = Projection::Orthographic;
@@ -61,10 +62,12 @@ TEST_F(RendererTest, BandsJoinWithoutASeam) {
     const auto wide = draw(renderer, scene).image;
     scene.picture.size = {600, 600};
     const auto narrow = draw(renderer, scene).image;
-    // Framing fits the volume to the shorter side, so the scale is the same. Positions differ by float rounding of u only:
-    // 2^-24 * 16384 / 600 of half the picture's height, a hundred-thousandth of a voxel; the steepest slope is 250 a voxel of 1000.
+    // Framing fits the volume to the shorter side, so the scale is the same. Positions differ by float
+    // rounding of u only: 2^-24 * 16384 / 600 of half the picture's height, a hundred-thousandth of a voxel;
+    // the steepest slope is 250 a voxel of 1000.
     for (int y = 0; y < 600; y += 7)
-        for (int x = 0; x < 600; x += 7) ASSERT_NEAR(wide.at(16384 / 2 - 300 + x, y).r, narrow.at(x, y).r, 1e-4) << x << " " << y;
+        for (int x = 0; x < 600; x += 7)
+            ASSERT_NEAR(wide.at(16384 / 2 - 300 + x, y).r, narrow.at(x, y).r, 1e-4) << x << " " << y;
 }
 
 TEST_F(RendererTest, RecomputesOnlyWhatAnEventTouches) {
@@ -78,9 +81,11 @@ TEST_F(RendererTest, RecomputesOnlyWhatAnEventTouches) {
         edit();
         draw(renderer, scene);
         const WorkCounts after = renderer.workCounts();
-        const WorkCounts work{after.volumeUploads - before.volumeUploads, after.transferTables - before.transferTables,
-                              after.programsCompiled + after.programsFromDisk - before.programsCompiled - before.programsFromDisk, 0,
-                              after.frames - before.frames};
+        const WorkCounts work{after.volumeUploads - before.volumeUploads,
+                              after.transferTables - before.transferTables,
+                              after.programsCompiled + after.programsFromDisk - before.programsCompiled -
+                                  before.programsFromDisk,
+                              0, after.frames - before.frames};
         EXPECT_EQ(work, expected) << event;
     };
     step([&] { scene.camera.view = AnatomicalView::Left; }, {0, 0, 0, 0, 1}, "rotation");
@@ -89,7 +94,11 @@ TEST_F(RendererTest, RecomputesOnlyWhatAnEventTouches) {
     step([&] { scene.material.ambient = 0.3; }, {0, 0, 0, 0, 1}, "material");
     step([&] { scene.quality.stepVoxels = 0.25; }, {0, 0, 0, 0, 1}, "sampling distance");
     step([&] { scene.densityScale = 3.0; }, {0, 0, 0, 0, 1}, "density");
-    step([&] { scene.volumes[0].transferFunction->points[1].color = {0, 1, 0}; }, {0, 1, 0, 0, 1}, "transfer function");
+    step(
+        [&] {
+            scene.volumes[0].transferFunction->points[1].color = {0, 1, 0};
+        },
+        {0, 1, 0, 0, 1}, "transfer function");
     step([&] { scene.lights->push_back(Light{}); }, {0, 0, 1, 0, 1}, "one more light");
     step([&] { m_volume = test::ballVolume(20); }, {1, 0, 0, 0, 1}, "new volume");
     step([&] {}, {0, 0, 0, 0, 1}, "nothing");
@@ -115,7 +124,7 @@ TEST_F(RendererTest, CancelEndsTheFrameWithAnError) {
     const auto frame = renderer.render(test::rampScene(), {m_volume}, options);
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ErrorCode::Cancelled);
-    draw(renderer, test::rampScene());   // and the renderer is as good as before
+    draw(renderer, test::rampScene());  // and the renderer is as good as before
 }
 
 TEST_F(RendererTest, ProgramsComeBackFromDisk) {
@@ -174,9 +183,11 @@ TEST_F(RendererTest, PicturesAreFiniteInEveryModeAndFilter) {
             scene.volumes[0].filter = filter;
             scene.lights->push_back(Light{});
             scene.lights->push_back({LightKind::Point, {1, 1, 1}, 0.5, {0, 1, 0}, {30, -40, 20}});
+            scene.volumes[0].window = Window{300, 1000};  // grey also where the value is 0
             bool shows = false;
             for (const auto& pixel : draw(renderer, scene).image.pixels) {
-                for (int channel = 0; channel < 4; ++channel) ASSERT_TRUE(std::isfinite(pixel[channel])) << name(mode) << " " << name(filter);
+                for (int channel = 0; channel < 4; ++channel)
+                    ASSERT_TRUE(std::isfinite(pixel[channel])) << name(mode) << " " << name(filter);
                 shows = shows || pixel.r > 0.05f;
             }
             EXPECT_TRUE(shows) << name(mode) << " " << name(filter);

@@ -25,11 +25,14 @@ VolumePtr volumeOf(glm::ivec3 size, VoxelType type, const std::vector<T>& values
 /// Physical values read back from the texture.
 std::vector<double> readBack(const VolumeTexture& texture, std::size_t count) {
     std::vector<float> texels(count);
-    // 16-bit texels come back as float exactly: value / 65535, and the driver's division is correctly rounded to 2^-24.
+    // 16-bit texels come back as float exactly: value / 65535, and the driver's division is correctly rounded
+    // to 2^-24.
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(texture.texture.id(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(count * sizeof(float)), texels.data());
+    glGetTextureImage(texture.texture.id(), 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(count * sizeof(float)),
+                      texels.data());
     std::vector<double> values;
-    for (const float u : texels) values.push_back(static_cast<double>(u) * texture.physicalPerTexel() + texture.physicalAtZero());
+    for (const float u : texels)
+        values.push_back(static_cast<double>(u) * texture.physicalPerTexel() + texture.physicalAtZero());
     return values;
 }
 
@@ -38,14 +41,17 @@ void expectExact(VoxelType type, double tolerance) {
     // Odd sizes, so that row padding would show.
     const glm::ivec3 size{3, 5, 7};
     std::vector<T> values(105);
-    const double lo = static_cast<double>(std::numeric_limits<T>::lowest()), hi = static_cast<double>(std::numeric_limits<T>::max());
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<T>(lo + (hi - lo) * static_cast<double>(i) / 104.0);
+    const double lo = static_cast<double>(std::numeric_limits<T>::lowest()),
+                 hi = static_cast<double>(std::numeric_limits<T>::max());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<T>(lo + (hi - lo) * static_cast<double>(i) / 104.0);
     const auto volume = volumeOf(size, type, values);
     const auto texture = uploadVolume(*volume, 0);
     ASSERT_TRUE(texture) << texture.error().text();
     const auto read = readBack(*texture, values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-        EXPECT_NEAR(read[i], 2.0 * static_cast<double>(values[i]) - 3.0, tolerance * (hi - lo)) << name(type) << " " << i;
+        EXPECT_NEAR(read[i], 2.0 * static_cast<double>(values[i]) - 3.0, tolerance * (hi - lo))
+            << name(type) << " " << i;
 }
 
 TEST_F(VolumeTextureTest, ReadsBackWhatWasUploaded) {
@@ -64,18 +70,21 @@ TEST_F(VolumeTextureTest, FloatsKeepTheirPrecisionRelativeToTheRange) {
     const auto texture = uploadVolume(*volumeOf({6, 1, 1}, VoxelType::Float64, values), 0);
     ASSERT_TRUE(texture);
     const auto read = readBack(*texture, 6);
-    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(read[i], 2.0 * values[i] - 3.0, 2.0 * 2e9 * std::ldexp(1.0, -24));
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(read[i], 2.0 * values[i] - 3.0, 2.0 * 2e9 * std::ldexp(1.0, -24));
 }
 
 TEST_F(VolumeTextureTest, ValuesThatAreNotFiniteBecomeTheSmallestFiniteOne) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-    const auto texture = uploadVolume(*volumeOf<float>({5, 1, 1}, VoxelType::Float32, {nan, 4.0f, inf, 8.0f, -inf}), 0);
+    const auto texture =
+        uploadVolume(*volumeOf<float>({5, 1, 1}, VoxelType::Float32, {nan, 4.0f, inf, 8.0f, -inf}), 0);
     ASSERT_TRUE(texture);
     EXPECT_THAT(readBack(*texture, 5), testing::ElementsAre(5.0, 5.0, 5.0, 13.0, 5.0));
 }
 
 TEST_F(VolumeTextureTest, PicksTheComponent) {
-    const auto texture = uploadVolume(*volumeOf<std::uint8_t>({2, 1, 1}, VoxelType::UInt8, {1, 2, 3, 4, 5, 6}, 3), 1);
+    const auto texture =
+        uploadVolume(*volumeOf<std::uint8_t>({2, 1, 1}, VoxelType::UInt8, {1, 2, 3, 4, 5, 6}, 3), 1);
     ASSERT_TRUE(texture);
     const auto read = readBack(*texture, 2);
     EXPECT_NEAR(read[0], 2.0 * 2 - 3, 1e-4);
@@ -97,7 +106,7 @@ TEST_F(VolumeTextureTest, AVolumeBeyondTheDriversLimitIsRefusedBeforeMemoryIsTak
     ASSERT_FALSE(texture);
     EXPECT_EQ(texture.error().code, ErrorCode::TooLarge);
     EXPECT_THAT(texture.error().text(), testing::HasSubstr(std::to_string(limit + 1)));
-    takeGlErrors();   // the proxy's own complaint, if the driver makes one
+    (void)takeGlErrors();  // the proxy's own complaint, if the driver makes one
 }
 
 }  // namespace
