@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/desktop/render_service.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/image.h"
+
+namespace pellucid::app {
+
+namespace {
+
+QImage pictureOf(const ImageF& image, const Scene& scene) {
+    const bool transparent = scene.picture.transparent;
+    const Image8 bytes = quantise(image, transparent, scene.quality.dither);
+    const auto format = bytes.channels == 4 ? QImage::Format_RGBA8888 : QImage::Format_RGB888;
+    const QImage shared(bytes.bytes.data(), bytes.size.x, bytes.size.y, bytes.size.x * bytes.channels,
+                        format);
+    return shared.copy();
+}
+
+}  // namespace
+
+RenderService::RenderService(QObject* parent)
+    : QObject(parent), m_thread([this](const std::stop_token& stop) { work(stop); }) {}
+
+RenderService::~RenderService() {
+    m_thread.request_stop();
+    m_thread.join();
+}
+
+std::uint64_t RenderService::request(Request request) {
+    const std::lock_guard lock(m_mutex);
+    const std::uint64_t number = ++m_lastNumber;
+    if (m_running && m_running->priority == Priority::Full) {
+        const bool isNewer = m_running->channel == request.channel;
+        if (isNewer || request.priority < Priority::Full) {
+            m_running->stop = true;
+            m_running->comeBack = !isNewer;
+        }
+    }
+    const int channel = request.channel;
+    m_waiting[channel] = std::make_unique<Job>(Job{number, std::move(request)});
+    m_wake.notify_one();
+    return number;
+}
+
+void RenderService::cancel(int channel) {
+    const std::lock_guard lock(m_mutex);
+    m_waiting.erase(channel);
+    if (!m_running || m_running->channel != channel) return;
+    m_running->stop = true;
+    m_running->comeBack = false;
+}
+
+void RenderService::work(const std::stop_token& stop) {
+    auto made = renderer::Renderer::headless();
+    QString device, error;
+    if (made)
+        device = QString::fromStdString(made->deviceInfo().renderer);
+    else
+        error = QString::fromStdString(made.error().text());
+    QMetaObject::invokeMethod(
+        this, [this, device, error] { Q_EMIT started(device, error); }, Qt::QueuedConnection);
+
+    while (auto job = next(stop)) {
+        if (made) {
+            draw(*made, std::move(job), stop);
+            continue;
+        }
+        const Reply reply{job->request.channel, job->number, job->request.priority, nullptr, {},
+                          made.error()};
+        if (release(std::move(job), false)) post(reply);
+    }
+}
+
+std::unique_ptr<RenderService::Job> RenderService::next(const std::stop_token& stop) {
+    std::unique_lock lock(m_mutex);
+    if (!m_wake.wait(lock, stop, [this] { return !m_waiting.empty(); })) return nullptr;
+    const auto order = [](const auto& waiting) {
+        return std::pair(waiting.second->request.priority, waiting.second->number);
+    };
+    const auto first = std::min_element(m_waiting.begin(), m_waiting.end(),
+                                        [&](const auto& a, const auto& b) { return order(a) < order(b); });
+    auto job = std::move(first->second);
+    m_waiting.erase(first);
+    m_running = Running{job->number, job->request.channel, job->request.priority, false, false};
+    return job;
+}
+
+void RenderService::draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, const std::stop_token& stop) {
+    const Request& request = job->request;
+    renderer::RenderOptions options;
+    options.estimateError = request.estimateError;
+    options.progress = [this, &stop, priority = request.priority](double fraction, std::string_view) {
+        return report(stop, priority, fraction);
+    };
+    auto frame = drawer.render(request.scene, request.volumes, options);
+    const bool wasStopped = !frame && frame.error().code == ErrorCode::Cancelled;
+    Reply reply{request.channel, job->number, request.priority, nullptr, {}, std::nullopt};
+    if (frame) {
+        reply.picture = pictureOf(frame->image, request.scene);
+        reply.frame = std::make_shared<const renderer::Frame>(std::move(*frame));
+    } else {
+        reply.error = frame.error();
+    }
+    if (release(std::move(job), wasStopped)) post(std::move(reply));
+}
+
+bool RenderService::release(std::unique_ptr<Job> job, bool wasStopped) {
+    const std::lock_guard lock(m_mutex);
+    const Running running = *std::exchange(m_running, std::nullopt);
+    if (!wasStopped) return !running.stop || running.comeBack;
+    // Its channel may have got a newer request meanwhile; that one counts.
+    if (running.comeBack) m_waiting.try_emplace(running.channel, std::move(job));
+    return false;
+}
+
+bool RenderService::report(const std::stop_token& stop, Priority priority, double fraction) {
+    if (priority == Priority::Export)
+        QMetaObject::invokeMethod(
+            this, [this, fraction] { Q_EMIT exportProgressed(fraction); }, Qt::QueuedConnection);
+    const std::lock_guard lock(m_mutex);
+    return !stop.stop_requested() && !m_running->stop;
+}
+
+void RenderService::post(Reply reply) {
+    QMetaObject::invokeMethod(
+        this, [this, reply = std::move(reply)] { Q_EMIT replied(reply); }, Qt::QueuedConnection);
+}
+
+}  // namespace pellucid::app

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QTimer>
+
+#include "app/desktop/view_widget.h"
+
+namespace pellucid::app {
+
+/// The 3D view: the document's scene. Left drag: rotate about the target; middle or Shift+left: pan; right
+/// drag or wheel: zoom; Ctrl+right or Ctrl+wheel: fly towards the target; Ctrl+left: roll; A P L R S I and
+/// keypad 1 3 7: standard views. A change shows a small picture at once, and the full one with its error
+/// estimate when the hand rests.
+class VolumeView : public ViewWidget {
+    Q_OBJECT
+
+public:
+    VolumeView(Document& document, RenderService& service, QWidget* parent = nullptr);
+
+    [[nodiscard]] Scene shownScene() const override;
+    void resetView() override;
+    void setStandardView(AnatomicalView view);
+    /// True when the full picture of the scene is shown.
+    [[nodiscard]] bool isComplete() const { return isSettled() && !m_refine.isActive() && m_shownIsFull; }
+    /// Size of the picture asked for while the scene moves: what takes about 80 ms, from the last measured
+    /// one.
+    [[nodiscard]] glm::ivec2 interactiveSize() const;
+
+protected:
+    void refresh() override;
+    void paintOverlay(QPainter& painter) override;
+    Drag dragFor(const QMouseEvent& event) const override { return dragOf(event, Drag::Roll); }
+    void beginDrag(const QMouseEvent& event) override;
+    void continueDrag(QPointF position) override;
+    void received(const RenderService::Reply& reply) override;
+
+    void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    void moveCamera(const char* name, const CameraPose& pose, double zoom);
+    [[nodiscard]] double angleAbout(QPointF position) const;
+
+    QTimer m_refine;    ///< Single shot; not running while nothing changes.
+    QTimer m_endWheel;  ///< Single shot; ends the wheel's gesture.
+    Scene m_askedScene;
+    bool m_shownIsFull = false;
+    double m_msPerPixel = 0.0;  ///< 0: not measured yet.
+    Camera m_cameraAtPress;
+    CameraPose m_poseAtPress;
+    bool m_flies = false;
+};
+
+}  // namespace pellucid::app
