@@ -84,7 +84,7 @@ void addInputOptions(CLI::App& command, InputArguments& a) {
                     "A scene (.json), or a scan: a DICOM folder, DICOM files, a DICOMDIR, or one NRRD, "
                     "MetaImage, NIfTI, "
                     "VTI, VTK or raw file")
-        ->type_name("SCENE|PATH...")
+        ->type_name("SCENE|PATH")
         ->required();
     command.add_option("--series", a.seriesUid, "Which DICOM series, where there are several")
         ->type_name("UID");

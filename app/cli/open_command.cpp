@@ -71,7 +71,7 @@ int run(const OpenArguments& arguments, const OpenDesktop& openDesktop) {
 Command addOpenCommand(CLI::App& program, const OpenDesktop& openDesktop) {
     const auto arguments = std::make_shared<OpenArguments>();
     program.add_option("path", arguments->paths, "A scene or a scan to open in the desktop")
-        ->type_name("PATH...");
+        ->type_name("PATH");
     program.add_flag("--sample", arguments->sample, "Opens the sample scan that comes with the program");
     return {&program, [arguments, openDesktop] { return run(*arguments, openDesktop); }};
 }

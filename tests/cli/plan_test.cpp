@@ -46,8 +46,9 @@ TEST_F(Plan, ALightAddsExactlyTheGradientShadeAndLightRows) {
 
     std::vector<std::string> added;
     for (const json& row : lit["resources"]) {
-        const bool there = std::any_of(unlit["resources"].begin(), unlit["resources"].end(),
-                                       [&](const json& other) { return other["resource"] == row["resource"]; });
+        const bool there =
+            std::any_of(unlit["resources"].begin(), unlit["resources"].end(),
+                        [&](const json& other) { return other["resource"] == row["resource"]; });
         if (!there) added.push_back(row["resource"].get<std::string>());
     }
     EXPECT_THAT(added, ElementsAre(HasSubstr("light")));

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -42,7 +43,7 @@ fs::path newFolder() {
 
 }  // namespace
 
-Outcome runProgram(const std::vector<std::string>& arguments, const fs::path& folder) {
+Outcome runProgram(const std::vector<std::string>& arguments, const fs::path& folder, int interruptAfterMs) {
     const fs::path scratch = newFolder();
     const std::string out = (scratch / "out").string();
     const std::string err = (scratch / "err").string();
@@ -55,6 +56,10 @@ Outcome runProgram(const std::vector<std::string>& arguments, const fs::path& fo
     unsetenv("WAYLAND_DISPLAY");
     const pid_t child = fork();
     if (child == 0) become(pointers.data(), folder.c_str(), out.c_str(), err.c_str());
+    if (interruptAfterMs > 0) {
+        usleep(static_cast<useconds_t>(interruptAfterMs) * 1000);
+        kill(child, SIGINT);
+    }
     int raw = 0;
     waitpid(child, &raw, 0);
     Outcome outcome{WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw), readAll(out), readAll(err)};

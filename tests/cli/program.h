@@ -17,8 +17,10 @@ struct Outcome {
     std::string err;
 };
 
-/// Runs the built program in `folder` without a display. No shell: arguments arrive as they are.
-Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder = "/");
+/// Runs the built program in `folder` without a display. No shell: arguments arrive as they are. With
+/// `interruptAfterMs`, presses Ctrl-C that long after the start.
+Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                   int interruptAfterMs = 0);
 
 /// A temporary folder for each test, with the smallest inputs that mean something.
 class ProgramTest : public testing::Test {
@@ -27,8 +29,8 @@ protected:
     void TearDown() override;
 
     [[nodiscard]] std::filesystem::path path(const std::string& name) const { return m_folder / name; }
-    [[nodiscard]] Outcome run(const std::vector<std::string>& arguments) const {
-        return runProgram(arguments, m_folder);
+    [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, int interruptAfterMs = 0) const {
+        return runProgram(arguments, m_folder, interruptAfterMs);
     }
     void write(const std::string& name, const std::string& content) const;
     [[nodiscard]] std::string read(const std::string& name) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cstring>
 
 #include "tests/cli/program.h"
@@ -93,6 +94,19 @@ TEST_F(Render, TheSampleIsThere) {
     const Outcome outcome = run({"--sample"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_TRUE(exists("pellucid-sample.png"));
+}
+
+TEST_F(Render, CtrlCEndsItSoonAndLeavesNoPicture) {
+    // 16 megapixels with 30000 samples each: minutes on any machine of today, while a tile takes some
+    // milliseconds.
+    writeBallScene("long.json", R"(, "quality": {"stepVoxels": 0.001, "earlyTermination": 0})");
+    const auto start = std::chrono::steady_clock::now();
+    const Outcome outcome = run({"render", "long.json", "-o", "long.png", "--size", "4096x4096"}, 1000);
+    const auto took = std::chrono::steady_clock::now() - start;
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_THAT(outcome.err, testing::StartsWith("pellucid: "));  // its own words: it was not just killed
+    EXPECT_LT(took, std::chrono::seconds(20));
+    EXPECT_FALSE(exists("long.png"));
 }
 
 TEST_F(Render, AMissingFolderIsRefusedBeforeAnythingIsDrawn) {
