@@ -66,7 +66,7 @@ TEST_F(Compare, WhatCannotBeComparedIsRefused) {
     writeGrey("a.pfm", 0.5f, 0.5f);
     write("wide.pfm", "PF\n5 1\n-1.0\n" + std::string(5 * 12, '\0'));
     write("note.txt", "no picture");
-    expectRefusal({"compare", "a.pfm", "wide.pfm"}, {"4x2", "5x1"});
+    expectRefusal({"compare", "a.pfm", "wide.pfm"}, {"4 x 2", "5 x 1"});
     expectRefusal({"compare", "a.pfm", "gone.png"}, {"gone.png"});
     expectRefusal({"compare", "note.txt", "a.pfm"}, {"note.txt"});
     expectRefusal({"compare", "a.pfm", "a.pfm", "--max", "much"}, {"--max"});

@@ -38,7 +38,7 @@ TEST_F(Render, PrintsSizeTimeAndErrorOnOneLine) {
 }
 
 TEST_F(Render, TheFloatPictureIsWhatThePngWasRoundedFrom) {
-    writeBallScene("scene.json");
+    writeBallScene("scene.json", R"(, "lights": [])");  // a highlight may be brighter than a PNG can hold
     ASSERT_EQ(run({"render", "scene.json", "-o", "a.png", "--float"}).status, 0);
     ASSERT_EQ(run({"render", "scene.json", "-o", "a.pfm"}).status, 0);
     // Rounding to nearest moves a value by at most half a grey level (and a hair of float).
