@@ -46,6 +46,7 @@ std::span<const StageVariant> stageTable() {
         {"compose", "isosurface", {"isovalue"}, {}, {"classify", "reconstruct"}},
         {"compose", "slice", {}, {}, {"classify"}},
         {"traverse", "midpoints", {"stepMm"}, {}, {"reconstruct", "compose"}},
+        {"traverse", "midpoints_by_four", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "boundaries", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "plane", {"planeForward", "planeFromAnchorMm"}, {}, {"reconstruct", "compose"}},
         {"encode", "srgb", {"transparentPicture"}, {}, {}},
@@ -114,10 +115,15 @@ StageRow composeRow(const Features& features) {
     return row("slice");
 }
 
-StageRow traverseRow(Mode mode) {
+StageRow traverseRow(const Features& features) {
+    const Mode mode = features.mode;
     if (mode == Mode::Slice) return {"traverse", "plane", "a slice is one sample a ray"};
     if (mode == Mode::FirstHit || mode == Mode::Isosurface)
         return {"traverse", "boundaries", "a surface is searched between samples"};
+    // Unrolling a cubic filter's 8 or 27 fetches would only make the program longer to compile.
+    if (features.filter == Filter::Nearest || features.filter == Filter::Trilinear)
+        return {"traverse", "midpoints_by_four",
+                "equal segments; a value is one fetch, so four are taken a turn"};
     return {"traverse", "midpoints", "equal segments, each with its own length"};
 }
 
@@ -153,7 +159,7 @@ StageChoice chooseStages(const Features& features) {
                                             : "the mode needs the whole ray"});
     }
     rows.push_back(composeRow(features));
-    rows.push_back(traverseRow(features.mode));
+    rows.push_back(traverseRow(features));
     if (features.space == CompositingSpace::Linear) {
         rows.push_back({"encode", "srgb", "colours are blended in linear light"});
     } else {

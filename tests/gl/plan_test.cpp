@@ -23,7 +23,7 @@ Plan planOf(const Scene& scene, const VolumeFacts& facts = kFacts) {
 
 std::vector<std::string> rowNames(const Plan& plan) {
     std::vector<std::string> names;
-    for (const auto& row : plan.stages) names.push_back(row.stage);
+    for (const auto& row : plan.stages) names.push_back(row.stage + " " + row.variant);
     for (const auto& row : plan.passes) names.push_back(row.name);
     for (const auto& row : plan.resources) names.push_back(row.name);
     return names;
@@ -40,7 +40,8 @@ TEST(Plan, ALightAddsExactlyGradientShadeAndLights) {
         ASSERT_NE(found, added.end()) << name;
         added.erase(found);
     }
-    EXPECT_THAT(added, testing::UnorderedElementsAre("gradient", "shade", "lights"));
+    EXPECT_THAT(added,
+                testing::UnorderedElementsAre("gradient central_difference", "shade blinn_phong", "lights"));
     EXPECT_EQ(lit.totalBytes - unlit.totalBytes, 32u);  // one light: two vec4
     const auto leftOut = [](const Plan& plan, const char* what) {
         return std::any_of(plan.leftOut.begin(), plan.leftOut.end(),

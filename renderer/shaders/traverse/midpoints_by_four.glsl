@@ -1,0 +1,33 @@
+// The same samples as `midpoints`, four a turn without a condition between them: where a value is one fetch, the turn of the loop
+// costs a fifth of it (measured on llvmpipe; a GPU overlaps the four fetches). A ray that may end early is asked once a turn.
+uniform float stepMm;
+
+void traverse(float tEnter, float tExit) {
+    vec3 start = ray.texOrigin + tEnter * ray.texDirection;
+    float extent = tExit - tEnter;
+    int count = max(int(ceil(extent / stepMm)), 1);
+    vec3 advance = stepMm * ray.texDirection;
+    int i = 0;
+    for (int whole = (count - 1) & ~3; i < whole; i += 4) {
+        float middle = (float(i) + 0.5) * stepMm;
+        vec3 a = start + middle * ray.texDirection;
+        vec3 b = a + advance;
+        vec3 c = b + advance;
+        vec3 d = c + advance;
+        float ua = reconstruct(a);
+        float ub = reconstruct(b);
+        float uc = reconstruct(c);
+        float ud = reconstruct(d);
+        composeSample(ua, a, tEnter + middle, stepMm);
+        composeSample(ub, b, tEnter + middle + stepMm, stepMm);
+        composeSample(uc, c, tEnter + middle + 2.0 * stepMm, stepMm);
+        if (composeSample(ud, d, tEnter + middle + 3.0 * stepMm, stepMm)) return;
+    }
+    for (; i < count; ++i) {
+        float from = float(i) * stepMm;
+        float lengthMm = max(min(stepMm, extent - from), 0.0);
+        float middle = from + 0.5 * lengthMm;
+        vec3 p = start + middle * ray.texDirection;
+        if (composeSample(reconstruct(p), p, tEnter + middle, lengthMm)) return;
+    }
+}
