@@ -19,6 +19,16 @@ using nlohmann::json;
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxTokenBytes = 60;
 
+/// `offset`: bytes before the one that is wrong.
+Error notJson(std::string_view text, std::size_t offset, std::string_view what) {
+    const std::string_view read = text.substr(0, std::min(offset, text.size()));
+    const auto line = std::count(read.begin(), read.end(), '\n') + 1;
+    const std::string_view lastLine = read.substr(read.find_last_of('\n') + 1);  // npos + 1 is 0.
+    const auto column =
+        std::count_if(lastLine.begin(), lastLine.end(), [](char c) { return (c & 0xC0) != 0x80; }) + 1;
+    return {ErrorCode::Corrupt, fmt::format("not JSON at line {}, column {}: {}", line, column, what), {}};
+}
+
 /// Builds a value from parser events, which is where repeated members and depth can still be seen.
 class Builder : public nlohmann::json_sax<json> {
 public:
@@ -47,12 +57,6 @@ public:
 
     bool parse_error(std::size_t position, const std::string&,
                      const nlohmann::detail::exception& exception) override {
-        const std::string_view read =
-            m_text.substr(0, std::min(position > 0 ? position - 1 : 0, m_text.size()));
-        const auto line = std::count(read.begin(), read.end(), '\n') + 1;
-        const std::string_view lastLine = read.substr(read.find_last_of('\n') + 1);  // npos + 1 is 0.
-        const auto column =
-            std::count_if(lastLine.begin(), lastLine.end(), [](char c) { return (c & 0xC0) != 0x80; }) + 1;
         // The library's sentence repeats the place and its own error number before the part worth reading.
         std::string_view what(exception.what());
         if (const auto start = what.find("syntax error"); start != what.npos)
@@ -63,8 +67,7 @@ public:
         if (!isUtf8(shown))
             std::replace_if(
                 shown.begin(), shown.end(), [](char c) { return (c & 0x80) != 0; }, '?');
-        m_error = Error{
-            ErrorCode::Corrupt, fmt::format("not JSON at line {}, column {}: {}", line, column, shown), {}};
+        m_error = notJson(m_text, position > 0 ? position - 1 : 0, shown);
         return false;
     }
 
@@ -129,7 +132,11 @@ private:
 Result<json> parseJson(std::string_view text) {
     Builder builder(text);
     const bool finished = json::sax_parse(text.begin(), text.end(), &builder);
-    return builder.result(finished);
+    Result<json> result = builder.result(finished);
+    // The library takes a zero byte for the end of the text; what follows it would be dropped silently.
+    const std::size_t zero = text.find('\0');
+    if (result && zero != text.npos) return tl::unexpected(notJson(text, zero, "a zero byte"));
+    return result;
 }
 
 std::string jsonPointer(std::string_view pointer, std::string_view token) {

@@ -47,12 +47,14 @@ public:
     void putColor(const char* member, glm::dvec3 value) {
         std::string hex = "#";
         for (int c = 0; c < 3; ++c) {
-            const double byte = std::round(value[c] * 255.0);
-            if (!(byte >= 0.0 && byte <= 255.0) || !sameBits(byte / 255.0, value[c])) {
+            // An integer, so that -0.0 does not pass for black.
+            const int byte =
+                value[c] >= 0.0 && value[c] <= 1.0 ? static_cast<int>(std::lround(value[c] * 255.0)) : -1;
+            if (byte < 0 || !sameBits(byte / 255.0, value[c])) {
                 put(member, Json{value.x, value.y, value.z});
                 return;
             }
-            hex += fmt::format("{:02x}", static_cast<int>(byte));
+            hex += fmt::format("{:02x}", byte);
         }
         put(member, hex);
     }

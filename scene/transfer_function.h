@@ -11,8 +11,8 @@
 
 namespace pellucid {
 
-/// The extinction that opacity 1 is stored as: 24 ln 2, so that 1 - exp(-tau) = 1 - 2^-24 rounds to 1 in
-/// float. Extinctions above it are legal (dense media); they merely all show as opacity 1.
+/// The extinction that opacity 1 is stored as: 24 ln 2, so that 1 - exp(-tau) = 1 - 2^-24, the largest float
+/// below 1. Extinctions above it are legal (dense media); they merely all show as opacity 1.
 inline constexpr double kOpaqueExtinction = 16.635532333438686;
 
 /// tau = -ln(1 - alpha) per unit length, capped at kOpaqueExtinction (Engel et al. 2006, eq. 1.17 in
