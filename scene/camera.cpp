@@ -91,21 +91,27 @@ ViewAxes axesOf(const CameraPose& pose) {
 
 CameraPose framingPose(const Camera& camera, const Grid& grid, double aspect) {
     PELLUCID_CHECK(aspect > 0.0);
+    // Room between the volume and the picture's edge, as a part of the half picture.
+    constexpr double kMargin = 1.05;
     const ViewAxes axes = axesOf(camera.view);
-    const double radius = radiusMm(grid);
-    const double narrower = std::min(1.0, aspect);
-    double distance = 2.0 * radius;  // Orthographic: anywhere outside the sphere shows the same.
-    if (camera.projection == Projection::Perspective) {
-        // The sphere touches the four planes of the picture's edges when sin(half angle) = radius / distance.
-        const double halfAngle = std::atan(narrower * std::tan(glm::radians(camera.fovDeg) / 2.0));
-        // Angles below this would put the eye where its distance to the volume is no longer a number of mm.
-        distance = radius / std::sin(std::max(halfAngle, 1e-9));
+    // Angles below this would put the eye where its distance to the volume is no longer a number of mm.
+    const double tangentUp = std::max(std::tan(glm::radians(camera.fovDeg) / 2.0), 1e-9);
+    double distance = 0.0;
+    double halfHeightMm = 0.0;
+    for (const glm::dvec3& corner : cornersMm(grid)) {
+        const glm::dvec3 offset = corner - centreMm(grid);
+        const double up = kMargin * std::max(std::abs(glm::dot(offset, axes.up)),
+                                             std::abs(glm::dot(offset, axes.right)) / aspect);
+        halfHeightMm = std::max(halfHeightMm, up);
+        distance = std::max(distance, up / tangentUp - glm::dot(offset, axes.forward));
     }
+    // Orthographic: anywhere outside the volume shows the same.
+    if (camera.projection == Projection::Orthographic) distance = 2.0 * radiusMm(grid);
     CameraPose pose;
     pose.target = centreMm(grid);
     pose.eye = pose.target - distance * axes.forward;
     pose.up = axes.up;
-    pose.heightMm = 2.0 * radius / narrower;
+    pose.heightMm = 2.0 * halfHeightMm;
     return pose;
 }
 

@@ -52,8 +52,9 @@ struct ViewAxes {
 [[nodiscard]] ViewAxes axesOf(AnatomicalView view);
 [[nodiscard]] ViewAxes axesOf(const CameraPose& pose);
 
-/// The pose that shows the whole volume (its bounding sphere) at zoom 1 in a picture of this aspect (width /
-/// height > 0), seen along camera.view; the target is the volume's centre, and heightMm frames it too.
+/// The pose that just fits the whole volume, up to its corners, into a picture at zoom 1 of this aspect
+/// (width / height > 0), seen along camera.view; the target is the volume's centre, and heightMm frames it
+/// too.
 [[nodiscard]] CameraPose framingPose(const Camera& camera, const Grid& grid, double aspect);
 /// camera.pose if there is one, else framingPose.
 [[nodiscard]] CameraPose resolvedPose(const Camera& camera, const Grid& grid, double aspect);

@@ -79,7 +79,7 @@ struct Scene {
     Material material;
     Camera camera;
     Mode mode = Mode::Composite;
-    double hitOpacity = 0.5;  ///< FirstHit: opacity per unit length that counts as a hit, in (0, 1].
+    double hitOpacity = 0.05;  ///< FirstHit: opacity per unit length that counts as a hit, in (0, 1].
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
     std::optional<double> unitLengthMm;  ///< Length that extinction refers to; unset: mean voxel spacing.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <algorithm>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -69,7 +70,7 @@ glm::dvec2 project(const RayFrame& frame, glm::dvec3 point) {
             glm::dot(offset, frame.up) / glm::dot(frame.up, frame.up) / depth};
 }
 
-TEST(Camera, FramingShowsEveryCornerAndTouchesTheSphere) {
+TEST(Camera, FramingFitsTheCornersWithAMargin) {
     for (const AnatomicalView view : kViews) {
         for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
             for (const glm::ivec2 size : {glm::ivec2{512, 512}, {1920, 400}, {300, 1600}, {1, 16384}}) {
@@ -82,22 +83,18 @@ TEST(Camera, FramingShowsEveryCornerAndTouchesTheSphere) {
                     camera.fovDeg = fov;
                     const Grid grid = obliqueGrid();
                     const RayFrame frame = rayFrame(camera, grid, size);
+                    double furthestOut = 0.0;
                     for (const glm::dvec3& corner : cornersMm(grid)) {
                         EXPECT_GT(glm::dot(corner - frame.eye, frame.forward), 0.0);
                         const glm::dvec2 at = project(frame, corner);
-                        EXPECT_LE(std::abs(at.x), 1.0 + 1e-12);
-                        EXPECT_LE(std::abs(at.y), 1.0 + 1e-12);
+                        furthestOut = std::max({furthestOut, std::abs(at.x), std::abs(at.y)});
                     }
                     EXPECT_NEAR(glm::length(frame.right) / glm::length(frame.up),
                                 static_cast<double>(size.x) / size.y, 1e-9 * size.x);
                     expectNear(frame.eye + frame.targetDistanceMm * frame.forward, centreMm(grid), 1e-6);
-                    // The sphere touches the edges of the shorter side, so nothing is wasted: its distance
-                    // from the plane through the eye and that edge is the radius.
-                    const double half = std::min(glm::length(frame.right), glm::length(frame.up));
-                    const double reach = projection == Projection::Orthographic
-                                             ? half
-                                             : frame.targetDistanceMm * half / std::hypot(1.0, half);
-                    EXPECT_NEAR(reach, radiusMm(grid), 1e-6 * radiusMm(grid));
+                    // Nothing is cut off and nothing wasted: the outermost corner leaves the stated margin of
+                    // 5 %.
+                    EXPECT_NEAR(furthestOut, 1.0 / 1.05, 1e-9);
                 }
             }
         }
