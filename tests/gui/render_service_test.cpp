@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/desktop/render_service.h"
+
+#include "tests/gui/gui_support.h"
+
+namespace pellucid::test {
+namespace {
+
+using app::RenderService;
+
+class RenderServiceTest : public ::testing::Test {
+protected:
+    RenderServiceTest() {
+        QObject::connect(&service, &RenderService::replied,
+                         [this](const RenderService::Reply& reply) { replies.push_back(reply); });
+    }
+    std::uint64_t ask(int channel, RenderService::Priority priority, glm::ivec2 size,
+                      double stepVoxels = 0.5) {
+        Scene scene = scan.scene;
+        scene.picture.size = size;
+        scene.quality.stepVoxels = stepVoxels;
+        return service.request({channel, scene, scan.volumes, priority, false});
+    }
+    [[nodiscard]] bool waitReplies(std::size_t count) {
+        return waitFor([&] { return replies.size() >= count; });
+    }
+
+    app::OpenedScan scan = smallScan();
+    RenderService service;
+    std::vector<RenderService::Reply> replies;
+};
+
+TEST_F(RenderServiceTest, NamesItsDevice) {
+    QString device;
+    RenderService another;
+    QObject::connect(&another, &RenderService::started, [&](const QString& name, const QString& error) {
+        device = name;
+        EXPECT_TRUE(error.isEmpty()) << error.toStdString();
+    });
+    EXPECT_TRUE(waitFor([&] { return !device.isEmpty(); }));
+}
+
+TEST_F(RenderServiceTest, OfSeveralWaitingRequestsOfAChannelTheNewestIsAnswered) {
+    // The first may have begun already; of the rest only the last has an answer.
+    std::uint64_t last = 0;
+    for (int i = 0; i < 10; ++i) last = ask(0, RenderService::Priority::Interactive, {64 + i, 64});
+    ASSERT_TRUE(waitFor([&] { return !replies.empty() && replies.back().number == last; }));
+    EXPECT_LE(replies.size(), 2u);
+    EXPECT_EQ(replies.back().picture.width(), 73);
+}
+
+TEST_F(RenderServiceTest, AFullPictureGivesWayToASliceAndIsDrawnAgain) {
+    const auto full = ask(3, RenderService::Priority::Full, {600, 600}, 0.1);
+    QTest::qWait(60);
+    ASSERT_TRUE(replies.empty()) << "the full picture is too fast for this test";
+    const auto slice = ask(0, RenderService::Priority::Slice, {32, 32});
+    ASSERT_TRUE(waitReplies(1));
+    EXPECT_EQ(replies[0].number, slice);
+    ASSERT_TRUE(waitReplies(2));
+    EXPECT_EQ(replies[1].number, full);
+    EXPECT_EQ(replies[1].picture.width(), 600);
+}
+
+TEST_F(RenderServiceTest, ANewerFullPictureReplacesTheRunningOne) {
+    ask(3, RenderService::Priority::Full, {1200, 1200}, 0.02);
+    QTest::qWait(100);
+    const auto newer = ask(3, RenderService::Priority::Full, {50, 40});
+    ASSERT_TRUE(waitReplies(1));
+    QTest::qWait(200);
+    ASSERT_EQ(replies.size(), 1u);
+    EXPECT_EQ(replies[0].number, newer);
+}
+
+TEST_F(RenderServiceTest, ACancelledChannelIsSilent) {
+    ask(4, RenderService::Priority::Export, {2000, 2000}, 0.02);
+    QTest::qWait(50);
+    service.cancel(4);
+    const auto next = ask(0, RenderService::Priority::Slice, {32, 32});
+    ASSERT_TRUE(waitReplies(1));
+    EXPECT_EQ(replies[0].number, next);
+}
+
+TEST_F(RenderServiceTest, AnErrorComesBackAsASentence) {
+    Scene scene = scan.scene;
+    scene.picture.size = {0, 10};
+    service.request({0, scene, scan.volumes, RenderService::Priority::Slice, false});
+    ASSERT_TRUE(waitReplies(1));
+    ASSERT_TRUE(replies[0].error);
+    EXPECT_EQ(replies[0].error->code, ErrorCode::InvalidArgument);
+    EXPECT_FALSE(replies[0].frame);
+}
+
+}  // namespace
+}  // namespace pellucid::test
