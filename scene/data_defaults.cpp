@@ -62,8 +62,18 @@ std::size_t upperClassStart(std::span<const double> sorted) {
     return bestStart;
 }
 
-bool isHounsfield(const Volume& volume) {
-    return volume.mapping().unit == "HU" || volume.info().modality == "CT";
+/// Said by the file, or plain from the values: formats such as NIfTI keep neither unit nor modality, but
+/// hardly anything except CT has air at -1000 beside values above 200. Only the first look depends on it.
+bool isHounsfield(const Volume& volume, int component) {
+    if (volume.mapping().unit == "HU" || volume.info().modality == "CT") return true;
+    const ValueRange range = volume.physicalRange(component);
+    if (!volume.mapping().unit.empty() || !volume.info().modality.empty() || range.lo < -8192.0 ||
+        range.lo > -900.0 || range.hi < 200.0 || range.hi > 65535.0)
+        return false;
+    const std::vector<double> sorted = sortedSample(volume, component);
+    const auto air = std::upper_bound(sorted.begin(), sorted.end(), -900.0) -
+                     std::lower_bound(sorted.begin(), sorted.end(), -1100.0);
+    return static_cast<double>(air) > 0.02 * static_cast<double>(sorted.size());
 }
 
 /// Between the 0.1st and the 99.9th percentile; everything when nearly all values are equal.
@@ -76,7 +86,7 @@ std::span<const double> withoutOutliers(const std::vector<double>& sorted) {
 }  // namespace
 
 TransferFunction1D defaultTransferFunction(const Volume& volume, int component) {
-    if (isHounsfield(volume))
+    if (isHounsfield(volume, component))
         if (const VolumePreset* preset = findVolumePreset("CT general")) return preset->function;
     const std::vector<double> sorted = sortedSample(volume, component);
     const auto values = withoutOutliers(sorted);
@@ -98,7 +108,7 @@ TransferFunction1D defaultTransferFunction(const Volume& volume, int component) 
 
 Window defaultWindow(const Volume& volume, int component) {
     if (!volume.info().windows.empty()) return volume.info().windows.front().window;
-    if (isHounsfield(volume)) return ctWindowPresets().front().window;
+    if (isHounsfield(volume, component)) return ctWindowPresets().front().window;
     const std::vector<double> sorted = sortedSample(volume, component);
     const auto values = withoutOutliers(sorted);
     const double lo = values.front(), hi = values.back();
@@ -111,7 +121,7 @@ Window defaultWindow(const Volume& volume, int component) {
 double defaultIsovalue(const Volume& volume, int component) {
     const ValueRange range = volume.physicalRange(component);
     // Cortical and most trabecular bone lies above 300 HU, soft tissue without contrast below.
-    if (isHounsfield(volume) && range.lo < 300.0 && range.hi > 300.0) return 300.0;
+    if (isHounsfield(volume, component) && range.lo < 300.0 && range.hi > 300.0) return 300.0;
     const std::vector<double> sorted = sortedSample(volume, component);
     const auto values = withoutOutliers(sorted);
     const std::size_t start = upperClassStart(values);

@@ -31,8 +31,12 @@ struct WindowPreset {
 };
 [[nodiscard]] const std::vector<WindowPreset>& ctWindowPresets();
 
-/// The function a volume is drawn with when the scene says nothing: a CT preset for HU data, else a ramp over
-/// the part of the histogram that is not background.
+/// What a volume is drawn with when the scene says nothing. CT (modality CT, unit HU, or neither said and
+/// values that can only be HU): the preset "CT general", the soft tissue window, bone at 300 HU. Everything
+/// else follows from an even sample of the values: background is told from tissue by Otsu's threshold (Otsu
+/// 1979), colour and opacity rise with the quantiles above it; the window spans the 0.1st to the 99.9th
+/// percentile unless the file names one; the isovalue is the threshold. Work for every volume: constant, NaN
+/// only, the whole range of doubles. Precondition: the volume has the component.
 [[nodiscard]] TransferFunction1D defaultTransferFunction(const Volume& volume, int component);
 [[nodiscard]] Window defaultWindow(const Volume& volume, int component);
 [[nodiscard]] double defaultIsovalue(const Volume& volume, int component);

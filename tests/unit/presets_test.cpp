@@ -142,6 +142,25 @@ TEST(Defaults, CtIsShownAsCt) {
     EXPECT_EQ(defaultWindow(*byModality, 0), (Window{35, 90}));
 }
 
+TEST(Defaults, HounsfieldValuesAreKnownWithoutAName) {
+    std::vector<std::int16_t> values(1000, -1000);
+    for (std::size_t i = 300; i < values.size(); ++i) values[i] = static_cast<std::int16_t>(i);
+    const auto isCt = [](const VolumePtr& volume) {
+        return defaultTransferFunction(*volume, 0).unit == "HU";
+    };
+    EXPECT_TRUE(isCt(makeVolume<std::int16_t>({10, 10, 10}, values)));
+    VolumeInfo mr;
+    mr.modality = "MR";
+    EXPECT_FALSE(isCt(makeVolume<std::int16_t>({10, 10, 10}, values, {}, 1, mr)));
+    EXPECT_FALSE(isCt(makeVolume<std::int16_t>({10, 10, 10}, values, {1, 0, "ms"})));
+    EXPECT_FALSE(isCt(makeVolume<std::int16_t>({10, 10, 10}, values, {1, 400, ""})));  // No air at -1000.
+    EXPECT_FALSE(
+        isCt(makeVolume<std::int16_t>({10, 10, 10}, values, {0.1, -900, ""})));  // Nothing above 200.
+    std::vector<std::int16_t> lone(1000, 500);
+    lone[0] = -1000;
+    EXPECT_FALSE(isCt(makeVolume<std::int16_t>({10, 10, 10}, lone)));
+}
+
 TEST(Defaults, WorkForEveryKindOfData) {
     const double most = std::numeric_limits<double>::max(), nan = std::nan("");
     const float nanF = std::numeric_limits<float>::quiet_NaN();
