@@ -11,6 +11,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "io/text_scan.h"
+
 namespace pellucid::io {
 namespace {
 
@@ -33,7 +35,7 @@ int writeAll(int descriptor, std::span<const std::byte> bytes) {
 
 tl::unexpected<Error> writeFailed(const fs::path& file, int number) {
     return fail(ErrorCode::WriteFailed,
-                fmt::format("{} could not be written: {}", file.string(), reason(number)));
+                fmt::format("{} could not be written: {}", shownPath(file), reason(number)));
 }
 
 /// Devices and pipes (/dev/null, /dev/stdout) are written in place: renaming would replace the device itself.
@@ -78,13 +80,13 @@ Result<std::vector<std::byte>> readFile(const fs::path& file, std::uint64_t maxB
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status))
-        return fail(ErrorCode::NotFound, fmt::format("{} does not exist", file.string()));
+        return fail(ErrorCode::NotFound, fmt::format("{} does not exist", shownPath(file)));
     if (fs::is_directory(status))
-        return fail(ErrorCode::Unreadable, fmt::format("{} is a folder", file.string()));
+        return fail(ErrorCode::Unreadable, fmt::format("{} is a folder", shownPath(file)));
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
         return fail(ErrorCode::Unreadable,
-                    fmt::format("{} could not be opened: {}", file.string(), reason(errno)));
+                    fmt::format("{} could not be opened: {}", shownPath(file), reason(errno)));
 
     // Read in pieces and not by the stated size: pipes have none, and a file may grow while it is read.
     std::vector<std::byte> bytes;
@@ -93,7 +95,7 @@ Result<std::vector<std::byte>> readFile(const fs::path& file, std::uint64_t maxB
         const std::uintmax_t size = fs::file_size(file, error);
         if (!error && size > maxBytes) {
             return fail(ErrorCode::TooLarge,
-                        fmt::format("{} has {} bytes; at most {} are read", file.string(), size, maxBytes));
+                        fmt::format("{} has {} bytes; at most {} are read", shownPath(file), size, maxBytes));
         }
         if (!error) bytes.reserve(static_cast<std::size_t>(size));
     }
@@ -103,14 +105,14 @@ Result<std::vector<std::byte>> readFile(const fs::path& file, std::uint64_t maxB
         stream.read(reinterpret_cast<char*>(bytes.data() + before), kPiece);
         bytes.resize(before + static_cast<std::size_t>(stream.gcount()));
         if (bytes.size() > maxBytes) {
-            return fail(
-                ErrorCode::TooLarge,
-                fmt::format("{} has more than the {} bytes that are read at most", file.string(), maxBytes));
+            return fail(ErrorCode::TooLarge,
+                        fmt::format("{} has more than the {} bytes that are read at most", shownPath(file),
+                                    maxBytes));
         }
     }
     if (stream.bad())
         return fail(ErrorCode::Unreadable,
-                    fmt::format("{} could not be read: {}", file.string(), reason(errno)));
+                    fmt::format("{} could not be read: {}", shownPath(file), reason(errno)));
     return bytes;
 }
 

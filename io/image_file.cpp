@@ -8,11 +8,13 @@
 #include <fstream>
 #include <string_view>
 
+#include "io/text_scan.h"
+
 namespace pellucid::io {
 
 Result<ImageF> readImage(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) return fail(ErrorCode::NotFound, fmt::format("{} could not be opened", file.string()));
+    if (!stream) return fail(ErrorCode::NotFound, fmt::format("{} could not be opened", shownPath(file)));
     std::array<char, 8> first{};
     stream.read(first.data(), first.size());
     const std::string_view start(first.data(), static_cast<std::size_t>(stream.gcount()));
@@ -22,7 +24,7 @@ Result<ImageF> readImage(const std::filesystem::path& file) {
     if (start.starts_with("PF") || start.starts_with("Pf")) return readPfm(file);
     if (!start.starts_with("\x89PNG")) {
         return fail(ErrorCode::Unsupported,
-                    fmt::format("{} is no picture that can be read: PNG, .npy and PFM are", file.string()));
+                    fmt::format("{} is no picture that can be read: PNG, .npy and PFM are", shownPath(file)));
     }
     const auto png = readPng(file);
     if (!png) return tl::unexpected(png.error());

@@ -75,7 +75,7 @@ Result<VolumePtr> loadUnknown(const fs::path& file, std::string_view start) {
                 fmt::format("no format that is known. For raw voxels put {}.json beside it, like {{\"size\": "
                             "[64, 64, 93], \"type\": \"int16\"}}, "
                             "or give the layout as options",
-                            shown(file.filename().string(), 255)));
+                            shownPath(file.filename())));
 }
 
 Result<VolumePtr> loadOneFile(const fs::path& file, const LoadOptions& options) {
@@ -100,8 +100,8 @@ Result<VolumePtr> loadOneFile(const fs::path& file, const LoadOptions& options) 
 
 /// With the file's name, unless the message gives it already.
 Result<VolumePtr> named(Result<VolumePtr> result, const fs::path& file) {
-    if (result || result.error().message.find(file.string()) != std::string::npos) return result;
-    return fail(std::move(result.error()), file.string());
+    if (result || result.error().message.find(shownPath(file)) != std::string::npos) return result;
+    return fail(std::move(result.error()), shownPath(file));
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ Result<VolumePtr> loadVolume(const std::vector<fs::path>& paths, const LoadOptio
     for (const fs::path& path : paths) {
         std::error_code error;
         if (!fs::exists(path, error))
-            return fail(ErrorCode::NotFound, fmt::format("{} does not exist", path.string()));
+            return fail(ErrorCode::NotFound, fmt::format("{} does not exist", shownPath(path)));
     }
     try {
         if (paths.size() == 1) return named(loadOneFile(paths.front(), options), paths.front());
@@ -121,15 +121,15 @@ Result<VolumePtr> loadVolume(const std::vector<fs::path>& paths, const LoadOptio
             if (fs::is_directory(path, error) || looksLikeDicom(path)) continue;
             return fail(ErrorCode::Unsupported, fmt::format("{} is not DICOM; of other formats one file at a "
                                                             "time is read, or several named in a scene",
-                                                            path.string()));
+                                                            shownPath(path)));
         }
         return loadDicom(paths, options);
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::TooLarge,
-                    fmt::format("{} needs more memory than there is", paths.front().string()));
+                    fmt::format("{} needs more memory than there is", shownPath(paths.front())));
     } catch (const fs::filesystem_error& error) {
         return fail(ErrorCode::Unreadable,
-                    fmt::format("{}: {}", paths.front().string(), error.code().message()));
+                    fmt::format("{}: {}", shownPath(paths.front()), error.code().message()));
     }
 }
 

@@ -91,7 +91,7 @@ Result<fs::path> imageOf(const fs::path& header) {
         if (fs::is_regular_file(candidate, error)) return candidate;
     }
     return fail(ErrorCode::NotFound, fmt::format("the voxels, {}.img or {}.img.gz, are not there",
-                                                 base.string(), base.filename().string()));
+                                                 shownPath(base), shownPath(base.filename())));
 }
 
 ValueMapping mappingOf(const NiftiHeader& header, std::vector<Warning>& warnings) {

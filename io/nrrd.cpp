@@ -87,7 +87,7 @@ Result<std::uint64_t> skipLines(const fs::path& file, std::uint64_t start, std::
         if (at == std::string::npos) {
             return fail(ErrorCode::Corrupt,
                         fmt::format("'line skip' is {}; {} has only {} lines in its first megabyte", lines,
-                                    file.string(), i));
+                                    shownPath(file), i));
         }
         ++at;
     }

@@ -79,7 +79,7 @@ Result<ImageF> readPfm(const std::filesystem::path& file) {
     const auto bytes = readFile(file, 16ull << 30);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto header =
-        parseHeader({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
+        parseHeader({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, shownPath(file));
     if (!header) return tl::unexpected(header.error());
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(header->size.x) * static_cast<std::uint64_t>(header->size.y);
@@ -88,8 +88,8 @@ Result<ImageF> readPfm(const std::filesystem::path& file) {
     if (found != wanted) {
         return fail(
             ErrorCode::Corrupt,
-            fmt::format("{}: expected {}x{}x{} float32 = {} bytes after the header, found {}", file.string(),
-                        header->size.x, header->size.y, header->channels, wanted, found));
+            fmt::format("{}: expected {}x{}x{} float32 = {} bytes after the header, found {}",
+                        shownPath(file), header->size.x, header->size.y, header->channels, wanted, found));
     }
     ImageF image{header->size, std::vector<glm::vec4>(pixels, glm::vec4(1.0f))};
     std::size_t at = header->dataOffset;

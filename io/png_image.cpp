@@ -7,6 +7,7 @@
 
 #include "io/atomic_file.h"
 #include "io/image_file.h"
+#include "io/text_scan.h"
 
 namespace pellucid::io {
 namespace {
@@ -43,7 +44,7 @@ Result<void> writePng(const std::filesystem::path& file, const Image8& image) {
     std::vector<std::byte> bytes(size);
     if (png_image_write_to_memory(&png.image, bytes.data(), &size, 0, image.bytes.data(), 0, nullptr) == 0) {
         return fail(ErrorCode::WriteFailed,
-                    fmt::format("{} could not be encoded as PNG: {}", file.string(), png.image.message));
+                    fmt::format("{} could not be encoded as PNG: {}", shownPath(file), png.image.message));
     }
     bytes.resize(size);
     return writeFile(file, bytes);
@@ -55,7 +56,7 @@ Result<Image8> readPng(const std::filesystem::path& file) {
     PngImage png;
     if (png_image_begin_read_from_memory(&png.image, bytes->data(), bytes->size()) == 0) {
         return fail(ErrorCode::Corrupt,
-                    fmt::format("{} is not a PNG that can be read: {}", file.string(), png.image.message));
+                    fmt::format("{} is not a PNG that can be read: {}", shownPath(file), png.image.message));
     }
     const bool alpha = (png.image.format & PNG_FORMAT_FLAG_ALPHA) != 0;
     png.image.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
@@ -65,13 +66,13 @@ Result<Image8> readPng(const std::filesystem::path& file) {
     const std::uint64_t pixels = static_cast<std::uint64_t>(png.image.width) * png.image.height;
     if (pixels / 8 > bytes->size() * kDeflateMax) {
         return fail(ErrorCode::Corrupt,
-                    fmt::format("{} states {}x{} pixels, more than its {} bytes can hold", file.string(),
+                    fmt::format("{} states {}x{} pixels, more than its {} bytes can hold", shownPath(file),
                                 png.image.width, png.image.height, bytes->size()));
     }
     image.size = {static_cast<int>(png.image.width), static_cast<int>(png.image.height)};
     image.bytes.resize(pixels * static_cast<std::uint64_t>(image.channels));
     if (png_image_finish_read(&png.image, nullptr, image.bytes.data(), 0, nullptr) == 0) {
-        return fail(ErrorCode::Corrupt, fmt::format("{} is damaged: {}", file.string(), png.image.message));
+        return fail(ErrorCode::Corrupt, fmt::format("{} is damaged: {}", shownPath(file), png.image.message));
     }
     return image;
 }

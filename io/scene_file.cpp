@@ -94,7 +94,7 @@ Result<Source> sourceOf(const std::vector<fs::path>& paths, const LoadOptions& o
     if (!isUtf8(source.path.string())) {
         return fail(ErrorCode::Unsupported,
                     fmt::format("the path {} is not UTF-8 and cannot be named in a scene",
-                                shown(source.path.string(), 255)));
+                                shown(shownPath(source.path), 255)));
     }
     return source;
 }
@@ -110,7 +110,7 @@ Result<LoadedScene> loadScene(const fs::path& file, const LoadOptions& options) 
     const auto bytes = readFile(file, kMaxSceneBytes);
     if (!bytes) return tl::unexpected(bytes.error());
     auto scene = sceneFromText({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-    if (!scene) return fail(std::move(scene.error()), file.string());
+    if (!scene) return fail(std::move(scene.error()), shownPath(file));
     LoadedScene loaded{std::move(*scene), {}};
     const fs::path folder = absolutePath(file).parent_path();
     std::map<std::string, VolumePtr> bySource;  // two items of one source share its voxels
@@ -127,7 +127,7 @@ Result<LoadedScene> loadScene(const fs::path& file, const LoadOptions& options) 
             continue;
         }
         auto volume = loadItem(item, i, own);
-        if (!volume) return fail(std::move(volume.error()), file.string());
+        if (!volume) return fail(std::move(volume.error()), shownPath(file));
         if (item.name.empty()) item.name = (*volume)->info().name;
         bySource.emplace(item.source, *volume);
         loaded.volumes.push_back(std::move(*volume));

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "scene/utf8.h"
 
 namespace pellucid::io {
 
@@ -59,6 +63,16 @@ template <class Number>
     }
     if (text.size() > most) result += "...";
     return result;
+}
+
+/// A path for an error message: as it is where that is printable UTF-8, else with '?' for the bytes that are
+/// not.
+[[nodiscard]] inline std::string shownPath(const std::filesystem::path& path) {
+    const std::string& text = path.native();
+    const bool printable = isUtf8(text) && std::none_of(text.begin(), text.end(), [](char c) {
+                               return (c >= 0 && c < 0x20) || c == 0x7f;
+                           });
+    return printable ? text : shown(text, 4096);
 }
 
 }  // namespace pellucid::io

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 
+#include "io/text_scan.h"
 #include "io/voxel_data.h"
 
 namespace pellucid::io {
@@ -183,11 +184,11 @@ Result<std::uint64_t> regularFileSize(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
     if (!fs::exists(status))
-        return fail(ErrorCode::NotFound, fmt::format("{} does not exist", file.string()));
+        return fail(ErrorCode::NotFound, fmt::format("{} does not exist", shownPath(file)));
     if (!fs::is_regular_file(status))
-        return fail(ErrorCode::Unreadable, fmt::format("{} is not a regular file", file.string()));
+        return fail(ErrorCode::Unreadable, fmt::format("{} is not a regular file", shownPath(file)));
     const std::uintmax_t size = fs::file_size(file, error);
-    if (error) return fail(ErrorCode::Unreadable, fmt::format("{}: {}", file.string(), error.message()));
+    if (error) return fail(ErrorCode::Unreadable, fmt::format("{}: {}", shownPath(file), error.message()));
     return size;
 }
 
@@ -212,7 +213,7 @@ Result<VoxelBytes> readVoxels(const VoxelSource& source, std::uint64_t wanted, c
     if (!size) return tl::unexpected(size.error());
     std::ifstream stream(source.file, std::ios::binary);
     if (!stream)
-        return fail(ErrorCode::Unreadable, fmt::format("{} could not be opened", source.file.string()));
+        return fail(ErrorCode::Unreadable, fmt::format("{} could not be opened", shownPath(source.file)));
     return source.deflated ? readDeflated(stream, source, *size, wanted, what, progress)
                            : readPlain(stream, source, *size, wanted, what, progress);
 }
