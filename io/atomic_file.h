@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -16,6 +16,7 @@ namespace pellucid::io {
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 /// Reads a whole file. Errors: NotFound, Unreadable, TooLarge when it has more than `maxBytes`.
-[[nodiscard]] Result<std::vector<std::byte>> readFile(const std::filesystem::path& file, std::uint64_t maxBytes = 1ull << 30);
+[[nodiscard]] Result<std::vector<std::byte>> readFile(const std::filesystem::path& file,
+                                                      std::uint64_t maxBytes = 1ull << 30);
 
 }  // namespace pellucid::io

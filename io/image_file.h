@@ -17,7 +17,8 @@ namespace pellucid::io {
 [[nodiscard]] Result<void> writeNpy(const std::filesystem::path& file, const ImageF& image);
 [[nodiscard]] Result<ImageF> readNpy(const std::filesystem::path& file);
 
-/// Portable float map ("PF", RGB, little endian, bottom row first as the format wants). A is not stored; reads back as 1.
+/// Portable float map ("PF", RGB, little endian, bottom row first as the format wants). A is not stored;
+/// reads back as 1.
 [[nodiscard]] Result<void> writePfm(const std::filesystem::path& file, const ImageF& image);
 [[nodiscard]] Result<ImageF> readPfm(const std::filesystem::path& file);
 

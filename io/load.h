@@ -16,7 +16,7 @@ namespace pellucid::io {
 /// How raw voxels lie in a file. From a JSON sidecar (FILE.json beside FILE) or from the command line.
 struct RawLayout {
     glm::ivec3 size{0, 0, 0};
-    std::string type = "uint8";        ///< int8 ... int64, uint8 ... uint64, float32, float64.
+    std::string type = "uint8";  ///< int8 ... int64, uint8 ... uint64, float32, float64.
     int components = 1;
     bool bigEndian = false;
     glm::dvec3 spacingMm{1, 1, 1};
@@ -27,17 +27,19 @@ struct RawLayout {
 };
 
 struct LoadOptions {
-    std::optional<RawLayout> raw;          ///< Read the file as raw voxels whatever its name.
-    std::string seriesUid;                 ///< Which series of a folder or DICOMDIR, when it holds several.
+    std::optional<RawLayout> raw;  ///< Read the file as raw voxels whatever its name.
+    std::string seriesUid;         ///< Which series of a folder or DICOMDIR, when it holds several.
     std::uint64_t maxVoxelBytes = 16ull << 30;  ///< Refused above this, before anything is allocated.
     Progress progress;
 };
 
 /// Reads one volume: a file in any known format, a folder or list of DICOM files, or a DICOMDIR.
 /// Decided by content first (magic numbers), by name only where a format has none.
-/// Errors: NotFound, Unreadable, Corrupt (what is wrong, where, expected and found numbers), Unsupported, TooLarge,
-/// Inconsistent (missing slice: the two files and the gap in mm; several series: each with UID, description
-/// and count, and how to choose), Cancelled. Never returns a volume that is not placed and valued as the file says.
-[[nodiscard]] Result<VolumePtr> loadVolume(const std::vector<std::filesystem::path>& paths, const LoadOptions& options = {});
+/// Errors: NotFound, Unreadable, Corrupt (what is wrong, where, expected and found numbers), Unsupported,
+/// TooLarge, Inconsistent (missing slice: the two files and the gap in mm; several series: each with UID,
+/// description and count, and how to choose), Cancelled. Never returns a volume that is not placed and valued
+/// as the file says.
+[[nodiscard]] Result<VolumePtr> loadVolume(const std::vector<std::filesystem::path>& paths,
+                                           const LoadOptions& options = {});
 
 }  // namespace pellucid::io

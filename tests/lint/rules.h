@@ -40,6 +40,11 @@ struct SourceFile {
 template <class Exists>
 [[nodiscard]] Findings checkLinks(const SourceFile& file, const Exists& exists);
 
+/// Rows of the table of techniques (ID | technique | source files | tests): every `file` and every
+/// `Suite.Test` named there is there, and every row names both.
+template <class Exists, class HasTest>
+[[nodiscard]] Findings checkTechniques(const SourceFile& file, const Exists& exists, const HasTest& hasTest);
+
 /// The text with comments and the contents of strings and characters replaced by blanks, line by line as
 /// before.
 [[nodiscard]] std::string codeOnly(std::string_view text);
@@ -50,6 +55,38 @@ template <class Exists>
 /// Targets of [text](target) that are neither on the web nor inside the page, without #anchors, with their
 /// offsets.
 [[nodiscard]] std::vector<std::pair<std::string, std::size_t>> relativeLinks(std::string_view markdown);
+
+/// One row of a Markdown table whose first cell is an ID: the names in backquotes of its third and fourth
+/// cell.
+struct TechniqueRow {
+    std::string id;
+    std::vector<std::string> files, tests;
+    std::size_t offset = 0;
+};
+[[nodiscard]] std::vector<TechniqueRow> techniqueRows(std::string_view markdown);
+
+/// "Suite.Name" of every TEST, TEST_F and TEST_P of a test file.
+[[nodiscard]] std::vector<std::string> testsIn(std::string_view text);
+
+template <class Exists, class HasTest>
+Findings checkTechniques(const SourceFile& file, const Exists& exists, const HasTest& hasTest) {
+    Findings findings;
+    for (const TechniqueRow& row : techniqueRows(file.text)) {
+        if (row.files.empty() || row.tests.empty())
+            findings.push_back(at(file, row.offset, row.id + " names no file or no test"));
+        for (const std::string& name : row.files) {
+            if (!exists(name))
+                findings.push_back(
+                    at(file, row.offset, row.id + " names the file '" + name + "', which is not there"));
+        }
+        for (const std::string& name : row.tests) {
+            if (!hasTest(name))
+                findings.push_back(
+                    at(file, row.offset, row.id + " names the test '" + name + "', which is not there"));
+        }
+    }
+    return findings;
+}
 
 template <class Exists>
 Findings checkLinks(const SourceFile& file, const Exists& exists) {

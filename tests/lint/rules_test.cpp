@@ -154,5 +154,25 @@ TEST(LintLinks, RefusesALinkToNothing) {
     EXPECT_THAT(checkLinks(page, exists), ElementsAre(HasSubstr("docs/a.md:2: links to 'gone.md'")));
 }
 
+TEST(LintTechniques, RefusesNamesOfNothing) {
+    const auto exists = [](const std::string& path) { return path == "a/b.cpp"; };
+    const auto hasTest = [](const std::string& name) { return name == "Suite.Right"; };
+    const std::string head = "| ID | technique | files | tests |\n|---|---|---|---|\n";
+    const auto check = [&](const std::string& row) {
+        return checkTechniques({"docs/t.md", head + row}, exists, hasTest);
+    };
+    EXPECT_THAT(check("| B1.4g | *Over*: `\"mode\"` | `a/b.cpp` | `Suite.Right` |\n"), IsEmpty());
+    EXPECT_THAT(check("| B1.4g | x | `a/c.cpp` | `Suite.Right` |\n"),
+                ElementsAre(HasSubstr("docs/t.md:3: B1.4g names the file 'a/c.cpp'")));
+    EXPECT_THAT(check("| B1.4g | x | `a/b.cpp` | `Suite.Right` `Suite.Gone` |\n"),
+                ElementsAre(HasSubstr("the test 'Suite.Gone'")));
+    EXPECT_THAT(check("| B1.4g | x | `a/b.cpp` | |\n"), ElementsAre(HasSubstr("names no file or no test")));
+}
+
+TEST(LintTechniques, FindsTheTestsOfAFile) {
+    EXPECT_THAT(testsIn("TEST(A, B) {}\nTEST_F(C,\n       D) {}\n// TEST(E, F)\nTEST_P(G, H) {}"),
+                ElementsAre("A.B", "C.D", "G.H"));
+}
+
 }  // namespace
 }  // namespace pellucid::lint

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "tests/lint/rules.h"
 
@@ -88,6 +89,19 @@ TEST(LintTree, SourcesAreShortAsciiAndLicensed) {
     }
     for (const SourceFile& file : cpp()) expectNone(checkHead(file));
     for (const SourceFile& file : filesEndingIn({"CMakeLists.txt", ".cmake"})) expectNone(checkAscii(file));
+}
+
+TEST(LintTree, TechniquesNameFilesAndTestsThatAreThere) {
+    std::set<std::string> tests;
+    for (const SourceFile& file : cpp()) {
+        if (!file.name.starts_with("tests/")) continue;
+        for (std::string& name : testsIn(file.text)) tests.insert(std::move(name));
+    }
+    const SourceFile page{"docs/techniques.md", readText(kRoot / "docs/techniques.md")};
+    EXPECT_GT(techniqueRows(page.text).size(), 20u);
+    expectNone(checkTechniques(
+        page, [](const std::string& name) { return fs::is_regular_file(kRoot / name); },
+        [&](const std::string& name) { return tests.count(name) > 0; }));
 }
 
 TEST(LintTree, LinksOfDocumentsLeadSomewhere) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "test_volumes.h"
+#include "tests/unit/test_volumes.h"
 
 namespace pellucid {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Pellucid contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "json_schema.h"
+#include "tests/unit/json_schema.h"
 
 #include <regex.h>
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "test_volumes.h"
+#include "tests/unit/test_volumes.h"
 
 namespace pellucid {
 namespace {

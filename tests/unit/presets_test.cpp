@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "test_volumes.h"
+#include "tests/unit/test_volumes.h"
 
 namespace pellucid {
 namespace {

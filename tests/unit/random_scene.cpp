@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Pellucid contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "random_scene.h"
+#include "tests/unit/random_scene.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gmock/gmock.h>
 
-#include "random_scene.h"
 #include "scene/json_parse.h"
 #include "scene/scene_json.h"
 #include "scene/utf8.h"
+#include "tests/unit/random_scene.h"
 
 namespace pellucid {
 namespace {

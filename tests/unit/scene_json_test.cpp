@@ -9,7 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "random_scene.h"
+#include "tests/unit/random_scene.h"
 
 namespace pellucid {
 namespace {

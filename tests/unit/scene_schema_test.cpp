@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "json_schema.h"
-#include "random_scene.h"
 #include "scene/presets.h"
 #include "scene/scene_json.h"
+#include "tests/unit/json_schema.h"
+#include "tests/unit/random_scene.h"
 
 // The schema for editors and people, and the reader, are written apart: these tests hold them together.
 

@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "random_scene.h"
-#include "test_volumes.h"
+#include "tests/unit/random_scene.h"
+#include "tests/unit/test_volumes.h"
 
 namespace pellucid {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "test_volumes.h"
+#include "tests/unit/test_volumes.h"
 
 namespace pellucid {
 namespace {
