@@ -28,27 +28,39 @@ bool isSliceClass(const DicomIdentity& identity) {
            identity.sopClass == UID_SecondaryCaptureImageStorage;
 }
 
+std::string classText(const DicomIdentity& identity) {
+    return identity.sopClass.empty() ? "an object without SOP class" : sopClassName(identity.sopClass);
+}
+
+/// What a slice must have and a cut file lacks; empty when nothing.
+std::string damageOf(DicomDataset& data, const DicomIdentity& identity) {
+    if (!data.number(DCM_Rows) || !data.number(DCM_Columns)) {
+        return classText(identity) + ": no image (it has no rows and columns)";
+    }
+    if (!data.structure().hasPixelData) return classText(identity) + ": no pixel data";
+    return {};
+}
+
 /// Why no volume can be made of an object; empty when it can.
 std::string refusalOf(DicomDataset& data, const DicomIdentity& identity) {
-    const std::string what =
-        identity.sopClass.empty() ? "an object without SOP class" : sopClassName(identity.sopClass);
+    const std::string what = classText(identity);
     const bool enhanced =
         data.has(DCM_SharedFunctionalGroupsSequence) || data.has(DCM_PerFrameFunctionalGroupsSequence);
     const auto frames = numberFrom<long long>(data.text(DCM_NumberOfFrames)).value_or(1);
     if (identity.sopClass == UID_SegmentationStorage) return what + ": a segmentation, not an image";
-    if (!data.number(DCM_Rows) || !data.number(DCM_Columns))
-        return what + ": no image (it has no rows and columns)";
-    if (data.has(DCM_NumberOfFrames) && frames != 1)
+    const bool isSlice = isSliceClass(identity);
+    if (!isSlice && (!data.number(DCM_Rows) || !data.number(DCM_Columns))) return what + ": no image";
+    if (data.has(DCM_NumberOfFrames) && frames != 1) {
         return fmt::format("{}: {} frames in one file", what, frames);
+    }
     if (enhanced) return what + ": an enhanced (multi-frame) object";
     if (data.number(DCM_SamplesPerPixel).value_or(1) != 1) return what + ": a colour image";
     const std::string photometric = data.text(DCM_PhotometricInterpretation);
-    if (photometric != "MONOCHROME1" && photometric != "MONOCHROME2") {
+    if (data.number(DCM_Rows) && photometric != "MONOCHROME1" && photometric != "MONOCHROME2") {
         return fmt::format("{}: photometric interpretation \"{}\", not a grey-scale image", what,
                            shown(photometric));
     }
-    if (!isSliceClass(identity)) return what + ": not a slice of CT, MR or PET";
-    if (!data.structure().hasPixelData) return what + ": no pixel data";
+    if (!isSlice) return what + ": not a slice of CT, MR or PET";
     return {};
 }
 
@@ -62,10 +74,13 @@ DicomIdentity identityOf(DicomDataset& data, const std::filesystem::path& file) 
     identity.modality = data.text(DCM_Modality);
     OFString mediaClass;
     data.meta().findAndGetOFString(DCM_MediaStorageSOPClassUID, mediaClass);
-    identity.isDirectory =
-        trimmed({mediaClass.c_str(), mediaClass.length()}) == UID_MediaStorageDirectoryStorage ||
-        data.dcmtk().tagExists(DCM_DirectoryRecordSequence);
-    if (!identity.isDirectory) identity.refusal = refusalOf(data, identity);
+    // A cut file may have lost the one in its data set.
+    if (identity.sopClass.empty()) identity.sopClass = trimmed({mediaClass.c_str(), mediaClass.length()});
+    identity.isDirectory = identity.sopClass == UID_MediaStorageDirectoryStorage ||
+                           data.dcmtk().tagExists(DCM_DirectoryRecordSequence);
+    if (identity.isDirectory) return identity;
+    identity.refusal = refusalOf(data, identity);
+    if (identity.refusal.empty()) identity.damage = damageOf(data, identity);
     return identity;
 }
 
@@ -142,6 +157,12 @@ Result<void> checkPixelBytes(DicomDataset& data, SliceHeader& slice) {
     slice.pixelBytes = data.structure().pixelBytes;
     const std::uint64_t possible =
         compressed ? largestDecoded(syntax, slice.pixelBytes, rowBytes) : slice.pixelBytes;
+    const std::uint64_t stated = data.structure().pixelBytesStated;
+    if (stated > slice.pixelBytes && possible >= slice.expectedPixelBytes) {
+        return fail(ErrorCode::Corrupt,
+                    fmt::format("{}: truncated: its pixel data is to have {} bytes, and {} are there", name,
+                                stated, slice.pixelBytes));
+    }
     if (possible >= slice.expectedPixelBytes) return {};
     if (compressed) {
         return fail(ErrorCode::Corrupt,
@@ -151,7 +172,7 @@ Result<void> checkPixelBytes(DicomDataset& data, SliceHeader& slice) {
     return fail(ErrorCode::Corrupt,
                 fmt::format("{}: truncated: {} x {} pixels need {} bytes of pixel data, and {} are there{}",
                             name, columns, rows, slice.expectedPixelBytes, slice.pixelBytes,
-                            data.structure().pixelBytesStated > slice.pixelBytes
+                            stated > slice.pixelBytes
                                 ? fmt::format(" (the file ends at byte {})", data.structure().fileBytes)
                                 : ""));
 }
@@ -243,6 +264,9 @@ Result<SliceHeader> readSliceHeader(const std::filesystem::path& file) {
         return fail(
             ErrorCode::Unsupported,
             fmt::format("{}: {}", nameOf(file), identity.isDirectory ? "a DICOMDIR" : identity.refusal));
+    }
+    if (!identity.damage.empty()) {
+        return fail(ErrorCode::Corrupt, fmt::format("{}: {}", nameOf(file), identity.damage));
     }
     SliceHeader slice;
     slice.file = file;

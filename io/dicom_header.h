@@ -22,8 +22,10 @@ struct DicomIdentity {
     std::string description;
     std::string modality;
     bool isDirectory = false;  ///< A DICOMDIR.
-    std::string
-        refusal;  ///< Why no volume can be made of it (not an image, colour, several frames); else empty.
+    /// Why no volume can be made of it (not an image, colour, several frames); else empty.
+    std::string refusal;
+    /// What it lacks although its class is that of a slice (rows and columns, pixel data); else empty.
+    std::string damage;
 };
 
 /// How pixels are stored (PS3.3 section C.7.6.3).

@@ -102,6 +102,13 @@ private:
             leaveOut(entry.path, identity->refusal);
             return {};
         }
+        // A damaged slice stays in its series, so that it is missed there; without a series it may belong to
+        // any.
+        if (!identity->damage.empty() && identity->seriesUid.empty()) {
+            return notReadable(
+                entry,
+                {ErrorCode::Corrupt, shown(entry.path.filename().string()) + ": " + identity->damage, {}});
+        }
         group(*identity);
         return {};
     }

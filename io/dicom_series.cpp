@@ -50,6 +50,7 @@ public:
             work(progress);
         }
         if (m_error) return tl::unexpected(*m_error);
+        if (!goOn(progress, 1.0, "decoding slices")) return cancelled();
         return {};
     }
 

@@ -88,6 +88,9 @@ void SyntheticFile::setPixels(std::vector<std::uint8_t> littleEndian, int bytesP
 
 std::string SyntheticFile::encoded(DicomEncoding encoding) const {
     std::string meta;
+    if (const auto sopClass = m_elements.find(0x00080016); sopClass != m_elements.end()) {
+        appendElement(meta, 0x00020002, "UI", sopClass->second.bytes, true, false);
+    }
     appendElement(meta, 0x00020010, "UI", padded(std::string(transferSyntax(encoding)), '\0'), true, false);
     std::string length;
     appendNumber(length, meta.size(), 4, false);
