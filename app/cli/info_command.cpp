@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cctype>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -128,12 +129,23 @@ void printValues(const Json& json) {
     }
 }
 
+/// Facts of a format repeat what every volume has; the text says it once.
+bool isSaidAlready(const std::string& label) {
+    static constexpr std::array<std::string_view, 4> kSaid = {"size", "spacing", "type", "orientation"};
+    std::string lower = label;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    return std::find(kSaid.begin(), kSaid.end(), lower) != kSaid.end();
+}
+
 void printText(const Json& json) {
     const std::string modality = json["modality"].get<std::string>();
     fmt::print("{}{}\n", json["name"].get<std::string>(), modality.empty() ? "" : ", " + modality);
     printGeometry(json);
     printValues(json);
-    for (const auto& [label, text] : json["facts"].items()) row(label, text.get<std::string>());
+    for (const auto& [label, text] : json["facts"].items()) {
+        if (!isSaidAlready(label)) row(label, text.get<std::string>());
+    }
     for (const Json& warning : json["warnings"]) row("warning", warning.get<std::string>());
 }
 
