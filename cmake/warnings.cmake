@@ -4,7 +4,7 @@
 add_library(pellucid_warnings INTERFACE)
 target_compile_options(pellucid_warnings INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Woverloaded-virtual -Wnon-virtual-dtor
-  -Wno-sign-conversion -Wno-restrict -Werror)
+  -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Werror)
 target_include_directories(pellucid_warnings INTERFACE ${PROJECT_SOURCE_DIR})
 if(PELLUCID_SANITIZE)
   target_compile_options(pellucid_warnings INTERFACE -Wno-maybe-uninitialized)
