@@ -8,7 +8,8 @@
 //  - vtkNrrdReader and vtkMetaImageReader deliver an identity direction for every file: `space directions`
 //  and
 //    `TransformMatrix` are lost, so a sagittal volume would be drawn as axial.
-//  - vtkNIFTIImageReader splits a sheared sform into spacing and a matrix, turns the order of the slices round
+//  - vtkNIFTIImageReader splits a sheared sform into spacing and a matrix, turns the order of the slices
+//  round
 //    where qfac is -1, and shows the first of several time steps.
 //  - A truncated file (raw, gzip or zlib) loads with the missing voxels zero; vtkNrrdReader (raw) and
 //    vtkMetaImageReader report no error at all, MetaIO prints to standard output instead.
