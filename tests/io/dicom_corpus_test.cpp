@@ -48,6 +48,11 @@ struct Stated {
     double tolerance;  ///< Of spacing and values: the digits the README has.
 };
 
+/// The name of a test, instead of its bytes.
+void PrintTo(const Stated& stated, std::ostream* out) {
+    *out << stated.path;
+}
+
 class DicomCorpus : public testing::TestWithParam<Stated> {};
 
 TEST_P(DicomCorpus, HasSpacingOrientationAndRangeAsStated) {
@@ -165,6 +170,10 @@ struct Refused {
     ErrorCode code;
     std::vector<const char*> says;
 };
+
+void PrintTo(const Refused& refused, std::ostream* out) {
+    *out << refused.path;
+}
 
 class DicomCorpusRefusal : public testing::TestWithParam<Refused> {};
 

@@ -120,6 +120,11 @@ struct FormatCase {
     test::DicomEncoding encoding;
 };
 
+/// The name of a test, instead of its bytes.
+void PrintTo(const FormatCase& format, std::ostream* out) {
+    *out << format.name;
+}
+
 class DicomFormat : public testing::TestWithParam<FormatCase> {};
 
 TEST_P(DicomFormat, ReadsTheFullRange) {
