@@ -40,6 +40,12 @@ QString nameOf(const std::vector<std::filesystem::path>& paths) {
         (path.has_filename() ? path.filename() : path.parent_path().filename()).string());
 }
 
+// Two digits for what is small, whole levels above that.
+QString greyLevels(double error) {
+    const double levels = error * 255.0;
+    return levels < 10.0 ? QString::number(levels, 'g', 2) : QString::number(levels, 'f', 0);
+}
+
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
@@ -111,8 +117,8 @@ void MainWindow::buildPanels() {
     column->addWidget(new LightPanel(m_document, content));
     column->addWidget(new QualityPanel(m_document, content));
     column->addStretch(1);
-    content->setEnabled(false);
-    connect(&m_document, &Document::replaced, content, [content] { content->setEnabled(true); });
+    content->hide();  // Controls of nothing would only puzzle.
+    connect(&m_document, &Document::replaced, content, &QWidget::show);
 
     auto* scroll = new QScrollArea(this);
     scroll->setWidget(content);
@@ -120,7 +126,8 @@ void MainWindow::buildPanels() {
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     auto* dock = new QDockWidget(tr("Settings"), this);
     dock->setObjectName(QStringLiteral("settingsDock"));
-    dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetClosable);
+    dock->setFeatures(QDockWidget::DockWidgetClosable);
+    dock->setTitleBarWidget(new QWidget(dock));  // None: its groups say what they are.
     dock->setWidget(scroll);
     dock->setMinimumWidth(kPanelWidth);
     addDockWidget(Qt::RightDockWidgetArea, dock);
@@ -203,9 +210,8 @@ void MainWindow::showCost(const ViewWidget* view, const RenderService::Reply& re
     const renderer::Frame& frame = *reply.frame;
     QStringList parts{tr("%1 ms").arg(frame.cost.wallMs, 0, 'f', frame.cost.wallMs < 10.0 ? 1 : 0)};
     if (frame.error)
-        parts += tr("error %1, at most %2 grey levels")
-                     .arg(frame.error->rmse * 255.0, 0, 'g', 2)
-                     .arg(frame.error->maxError * 255.0, 0, 'g', 2);
+        parts += tr("error %1 (largest %2) grey levels")
+                     .arg(greyLevels(frame.error->rmse), greyLevels(frame.error->maxError));
     parts += tr("%1 MB").arg(static_cast<double>(frame.plan.totalBytes) / 1e6, 0, 'f', 1);
     parts += m_device;
     m_cost->setText(parts.join(QStringLiteral("   |   ")));

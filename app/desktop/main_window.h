@@ -82,6 +82,7 @@ private:
     bool mayLeave();
     void showExport();
     void showPlan();
+    void showInformation();
     void showKeys();
     void showAbout();
     void updateActions();

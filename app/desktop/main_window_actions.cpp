@@ -116,13 +116,16 @@ void MainWindow::buildFileMenu() {
     QAction* save = addTo(menu, "saveScene", tr("&Save scene"), QKeySequence::Save);
     QAction* saveAs = addTo(menu, "saveSceneAs", tr("Save scene &as..."), QKeySequence::SaveAs);
     menu->addSeparator();
+    QAction* information =
+        addTo(menu, "information", tr("&Information on the scan..."), QKeySequence(tr("Ctrl+I")));
     QAction* exportPicture = addTo(menu, "export", tr("&Export picture..."), QKeySequence(tr("Ctrl+E")));
     menu->addSeparator();
     connect(addTo(menu, "quit", tr("&Quit"), QKeySequence::Quit), &QAction::triggered, this, &QWidget::close);
     connect(save, &QAction::triggered, this, &MainWindow::saveScene);
     connect(saveAs, &QAction::triggered, this, &MainWindow::saveSceneAs);
     connect(exportPicture, &QAction::triggered, this, &MainWindow::showExport);
-    m_needDocument.insert(m_needDocument.end(), {save, saveAs, exportPicture});
+    connect(information, &QAction::triggered, this, &MainWindow::showInformation);
+    m_needDocument.insert(m_needDocument.end(), {save, saveAs, information, exportPicture});
 }
 
 void MainWindow::buildEditMenu() {
@@ -279,6 +282,11 @@ void MainWindow::showPlan() {
     if (!reply || !reply->frame) return;
     showText(this, "planDialog", tr("Plan of the 3D picture"),
              QString::fromStdString(renderer::planText(reply->frame->plan)), {860, 560});
+}
+
+void MainWindow::showInformation() {
+    showText(this, "informationDialog", tr("Information on the scan"),
+             QString::fromStdString(scanInformation(m_document.volume())), {760, 520});
 }
 
 void MainWindow::showKeys() {

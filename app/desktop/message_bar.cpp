@@ -17,7 +17,7 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent), m_label(new QLabel(thi
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     auto* close = new QToolButton(this);
     close->setObjectName(QStringLiteral("messageClose"));
-    close->setIcon(style()->standardIcon(QStyle::SP_TitleBarCloseButton));
+    close->setText(QString(QChar(0xd7)));
     close->setAutoRaise(true);
     close->setToolTip(tr("Put this message away"));
     connect(close, &QToolButton::clicked, this, &QWidget::hide);

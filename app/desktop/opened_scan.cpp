@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/desktop/view_scenes.h"
 #include "io/scene_file.h"
 #include "scene/presets.h"
 
@@ -41,6 +42,20 @@ Result<OpenedScan> openScan(const std::vector<std::filesystem::path>& paths, con
     auto scan = scanFrom(loaded->scene, std::move(loaded->volumes), options.progress);
     if (scan) scan->paths = paths;
     return scan;
+}
+
+std::string scanInformation(const Volume& volume) {
+    std::string text;
+    const auto line = [&](std::string_view label, const std::string& value) {
+        text += fmt::format("{:<22}{}\n", label, value);
+    };
+    for (const Warning& warning : volume.info().warnings) line("warning", warning.message);
+    const ValueRange range = volume.physicalRange();
+    line("name", volume.info().name);
+    line("centre", positionText(centreMm(volume.grid())));
+    line("values", fmt::format("{:.6g} to {:.6g} {}", range.lo, range.hi, volume.mapping().unit));
+    for (const auto& [label, value] : volume.info().facts) line(label, value);
+    return text;
 }
 
 }  // namespace pellucid::app

@@ -29,4 +29,8 @@ struct OpenedScan {
 [[nodiscard]] Result<OpenedScan> scanFrom(const Scene& scene, std::vector<VolumePtr> volumes,
                                           const Progress& progress = {});
 
+/// What is known of a volume, for people: its warnings in full, place, values, and what the file says; one
+/// line each.
+[[nodiscard]] std::string scanInformation(const Volume& volume);
+
 }  // namespace pellucid::app

@@ -25,11 +25,11 @@ QToolBar QToolButton { padding: 4px 9px; border-radius: 3px; }
 QToolBar QToolButton:hover { background: #363b44; }
 QMenuBar { background: #24272d; }
 QDockWidget::title { background: #24272d; padding: 6px; }
-#viewHeader QLabel, #viewHeader QToolButton { color: #14161a; font-weight: 600; }
+#viewHeader QLabel, #viewHeader QToolButton { color: #f2f4f6; font-weight: 600; }
 #viewHeader QToolButton { border: 0; border-radius: 2px; padding: 0 5px; }
-#viewHeader QToolButton:hover { background: rgba(255, 255, 255, 90); }
+#viewHeader QToolButton:hover { background: rgba(255, 255, 255, 60); }
 #viewHeader QSlider::groove:horizontal { height: 4px; background: rgba(0, 0, 0, 90); border-radius: 2px; }
-#viewHeader QSlider::handle:horizontal { width: 10px; margin: -4px 0; background: #14161a; border-radius: 3px; }
+#viewHeader QSlider::handle:horizontal { width: 10px; margin: -4px 0; background: #f2f4f6; border-radius: 3px; }
 #messageBar { border-radius: 4px; }
 #messageBar[kind="error"] { background: #5a2a2c; }
 #messageBar[kind="warning"] { background: #4d4323; }
@@ -78,6 +78,10 @@ QColor colorOf(Plane plane) {
 
 QColor volumeViewColor() {
     return {0x82, 0x9f, 0xd0};
+}
+
+QColor barColor(const QColor& color) {
+    return color.darker(140);
 }
 
 void drawOverlayText(QPainter& painter, const QRectF& where, int flags, const QString& text) {

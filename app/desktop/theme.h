@@ -19,6 +19,8 @@ void applyTheme(QApplication& application);
 /// The planes' colours: bars, crosshair lines. Red, green and yellow as in 3D Slicer, muted.
 [[nodiscard]] QColor colorOf(Plane plane);
 [[nodiscard]] QColor volumeViewColor();
+/// The same, darker, for the bars: a large area of the full colour would outshine the pictures.
+[[nodiscard]] QColor barColor(const QColor& color);
 
 /// Text that reads on any picture: light with a dark edge. `flags` as in QPainter::drawText.
 void drawOverlayText(QPainter& painter, const QRectF& where, int flags, const QString& text);

@@ -68,7 +68,7 @@ QHBoxLayout* ViewFrame::build(const QString& title, const QColor& color) {
     header->setObjectName(QStringLiteral("viewHeader"));
     header->setAutoFillBackground(true);
     QPalette palette = header->palette();
-    palette.setColor(QPalette::Window, color);
+    palette.setColor(QPalette::Window, barColor(color));
     header->setPalette(palette);
     header->setFixedHeight(22);
     auto* bar = new QHBoxLayout(header);

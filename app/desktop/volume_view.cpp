@@ -31,7 +31,6 @@ constexpr double kMinZoom = 0.02, kMaxZoom = 200.0;
 VolumeView::VolumeView(Document& document, RenderService& service, QWidget* parent)
     : ViewWidget(kChannel, document, service, parent) {
     m_refine.setSingleShot(true);
-    m_refine.setInterval(kRestMs);
     m_endWheel.setSingleShot(true);
     m_endWheel.setInterval(kWheelEndMs);
     connect(&m_refine, &QTimer::timeout, this, [this] {
@@ -41,7 +40,7 @@ VolumeView::VolumeView(Document& document, RenderService& service, QWidget* pare
     connect(&document, &Document::replaced, this, [this] {
         m_askedScene = {};
         m_msPerPixel = 0.0;
-        m_shownIsFull = false;
+        m_isFinal = false;
     });
     connect(&document, &Document::sceneChanged, this, &VolumeView::refresh);
 }
@@ -66,23 +65,25 @@ void VolumeView::refresh() {
     Scene scene = shownScene();
     if (scene == m_askedScene) return;
     m_askedScene = scene;
-    m_shownIsFull = false;
+    m_isFinal = false;
     scene.picture.size = interactiveSize();
     // The picture's shape decides how the volume is framed; the small picture's is rounded, so it gets the
     // full one's.
     scene.camera.pose =
         resolvedPose(scene.camera, document().volume().grid(), static_cast<double>(width()) / height());
+    m_refine.stop();
+    m_sinceChange.start();
     ask(std::move(scene), RenderService::Priority::Interactive, false);
-    m_refine.start();
 }
 
 void VolumeView::received(const RenderService::Reply& reply) {
-    m_shownIsFull = reply.priority == RenderService::Priority::Full;
-    if (!reply.frame) return;
+    m_isFinal = reply.error || reply.priority == RenderService::Priority::Full;
+    if (m_isFinal || !reply.frame) return;
     const glm::ivec2 size = reply.frame->image.size;
     const renderer::FrameCost& cost = reply.frame->cost;
-    if (!m_shownIsFull)
-        m_msPerPixel = (cost.wallMs - cost.prepareMs) / (static_cast<double>(size.x) * size.y);
+    m_msPerPixel = (cost.wallMs - cost.prepareMs) / (static_cast<double>(size.x) * size.y);
+    // The full picture is asked for only now: as the newer request it would have taken the small one's place.
+    if (isSettled()) m_refine.start(std::max(0, kRestMs - static_cast<int>(m_sinceChange.elapsed())));
 }
 
 void VolumeView::moveCamera(const char* name, const CameraPose& pose, double zoom) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QElapsedTimer>
 #include <QTimer>
 
 #include "app/desktop/view_widget.h"
@@ -22,7 +23,7 @@ public:
     void resetView() override;
     void setStandardView(AnatomicalView view);
     /// True when the full picture of the scene is shown.
-    [[nodiscard]] bool isComplete() const { return isSettled() && !m_refine.isActive() && m_shownIsFull; }
+    [[nodiscard]] bool isComplete() const { return isSettled() && m_isFinal; }
     /// Size of the picture asked for while the scene moves: what takes about 80 ms, from the last measured
     /// one.
     [[nodiscard]] glm::ivec2 interactiveSize() const;
@@ -45,7 +46,8 @@ private:
     QTimer m_refine;    ///< Single shot; not running while nothing changes.
     QTimer m_endWheel;  ///< Single shot; ends the wheel's gesture.
     Scene m_askedScene;
-    bool m_shownIsFull = false;
+    QElapsedTimer m_sinceChange;
+    bool m_isFinal = false;     ///< The newest answer is the full picture, or that there is none.
     double m_msPerPixel = 0.0;  ///< 0: not measured yet.
     Camera m_cameraAtPress;
     CameraPose m_poseAtPress;

@@ -108,6 +108,13 @@ TEST_F(OpenTest, WarningsAreShownInFull) {
     EXPECT_TRUE(child<QWidget>("messageBar")->isVisible());
 }
 
+TEST_F(OpenTest, TheInformationNamesPlaceValuesAndWarnings) {
+    const std::string text = app::scanInformation(document().volume());
+    // The centre of 24 x 20 x 16 voxels of 2 x 3 x 4 mm whose first centre lies at (-20, -30, -40) mm.
+    EXPECT_NE(text.find("L 3.0  A 1.5  I 10.0 mm"), std::string::npos) << text;
+    EXPECT_NE(text.find("-1000 to 716 HU"), std::string::npos) << text;
+}
+
 TEST_F(OpenTest, ASavedSceneOpensAgainAsItWas) {
     window.openPaths({writeRaw("volume.raw", 12)});
     ASSERT_TRUE(waitLoaded());
