@@ -68,6 +68,9 @@ TEST_F(OpenTest, AFailureLeavesTheDocumentAndSaysTheWholeSentence) {
 TEST_F(OpenTest, CancelKeepsTheDocumentAndTheWindowUsable) {
     const auto volumes = document().volumes();
     const std::filesystem::path file = writeRaw("large.raw", 300);
+    int loaded = 0, failed = 0;
+    QObject::connect(&window.loader(), &app::Loader::loaded, [&] { ++loaded; });
+    QObject::connect(&window.loader(), &app::Loader::failed, [&] { ++failed; });
     window.openPaths({file});
     ASSERT_TRUE(window.loader().isLoading());
     child<QPushButton>("loadCancel")->click();
@@ -79,6 +82,8 @@ TEST_F(OpenTest, CancelKeepsTheDocumentAndTheWindowUsable) {
     ASSERT_TRUE(waitLoaded());
     QTest::qWait(300);
     EXPECT_EQ(document().volume().grid().size, glm::ivec3(10));
+    EXPECT_EQ(loaded, 1);
+    EXPECT_EQ(failed, 1) << "the cancel itself, and nothing after it";
 }
 
 TEST_F(OpenTest, ADroppedFileOpens) {
