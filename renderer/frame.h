@@ -35,6 +35,7 @@ struct Frame {
     FrameCost cost;
     std::optional<ErrorEstimate> error;  ///< When asked for.
     Plan plan;
+    bool preview = false;  ///< Drawn with a quickly made table; the same scene drawn again has the exact one.
 };
 
 }  // namespace pellucid::renderer

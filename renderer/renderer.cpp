@@ -69,10 +69,14 @@ struct Renderer::State {
     RaycastPass raycast;
     std::map<const GlProgram*, double> msPerSample;  // of the most expensive tile last drawn
 
+    bool preview = false;  // the last picture used a quickly made table
+
     explicit State(GpuContext own) : context(std::move(own)), raycast(isSoftware(glText(GL_RENDERER))) {}
     ~State() { context.makeCurrent(); }
 
     Result<const GlProgram*> program(const Plan& plan);
+    FrameTables tablesFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts,
+                          const RenderOptions& options);
     Result<ImageF> drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
                             const RenderOptions& options, FrameCost& cost);
     DeviceLimits limits() const {
@@ -88,27 +92,54 @@ Result<const GlProgram*> Renderer::State::program(const Plan& plan) {
     return found->program;
 }
 
+FrameTables Renderer::State::tablesFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts,
+                                       const RenderOptions& options) {
+    FrameTables tables;
+    if (!usesTransferFunction(scene.mode)) return tables;
+    const auto& function = *scene.volumes.front().transferFunction;
+    const auto space = plan.features.space;
+    switch (plan.features.integrator) {
+        case Integrator::Preintegrated2D:
+        case Integrator::Preintegrated3D: {
+            auto& table = store.preintegration(function, space, layoutPreintegration(scene, plan, facts),
+                                               !options.allowPreview);
+            preview = !completePreintegration(table, !options.allowPreview);
+            tables.preintegration = &table;
+            return tables;
+        }
+        case Integrator::IntegralFunctions:
+        case Integrator::Adaptive:
+            tables.integrals = &store.integrals(function, space, layoutFor(scene, plan, facts),
+                                                integralTableSize(facts.type));
+            break;
+        default:
+            break;
+    }
+    tables.transfer = &store.table(function, space, layoutFor(scene, plan, facts));
+    return tables;
+}
+
 Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
                                          const RenderOptions& options, FrameCost& cost) {
     const auto start = std::chrono::steady_clock::now();
+    preview = false;
     const auto& item = scene.volumes.front();
     auto program_ = program(plan);
     if (!program_) return tl::unexpected(program_.error());
     auto texture = store.volume(volume, item.component, options.progress);
     if (!texture) return tl::unexpected(texture.error());
-    const TransferTexture* table = nullptr;
-    if (usesTransferFunction(scene.mode)) {
-        const TableLayout layout = layoutFor(scene, plan, factsOf(*volume, item.component));
-        table = &store.table(*item.transferFunction, plan.features.space, layout);
-    }
-    const Uniforms uniforms = raycastUniforms(scene, plan, volume->grid(), **texture, table);
+    const FrameTables tables = tablesFor(scene, plan, factsOf(*volume, item.component), options);
+    const Uniforms uniforms = raycastUniforms(scene, plan, volume->grid(), **texture, tables);
     auto target = store.target(targetSize(scene.picture.size));
     if (!target) return tl::unexpected(target.error());
     RaycastInputs inputs;
     inputs.program = *program_;
     inputs.uniforms = &uniforms;
     inputs.volumeTexture = (*texture)->texture.id();
-    inputs.transferTable = table != nullptr ? table->texture.id() : 0;
+    inputs.transferTable = tables.transfer != nullptr ? tables.transfer->texture.id() : 0;
+    if (tables.preintegration != nullptr) inputs.segmentTable = tables.preintegration->texture.id();
+    if (tables.integrals != nullptr) inputs.segmentTable = tables.integrals->texture.id();
+    inputs.blueNoise = plan.features.jitter ? store.blueNoise().id() : 0;
     inputs.lightsBlock = plan.features.lit ? store.lights(lightBlock(scene, volume->grid())).id() : 0;
     inputs.interpolates = item.filter != Filter::Nearest;
     inputs.target = *target;
@@ -164,6 +195,7 @@ Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>&
     auto image = m_state->drawOnce(full, *plan, volumes.front(), options, frame.cost);
     if (!image) return tl::unexpected(image.error());
     frame.image = std::move(*image);
+    frame.preview = m_state->preview;
     frame.cost.wallMs = msSince(start);
     if (options.estimateError) {
         const auto draw = [&](const Scene& probe) -> Result<ImageF> {

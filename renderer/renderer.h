@@ -15,6 +15,8 @@ class GpuContext;
 struct RenderOptions {
     Progress progress;           ///< Asked between tiles; false cancels.
     bool estimateError = false;  ///< Adds about a fifth to the time of the frame.
+    bool allowPreview =
+        false;  ///< A pre-integration table may be a quick one while the exact one is made (Frame::preview).
     double tileTargetMs =
         20.0;  ///< Tiles are sized so that one draw takes about this long; 30 is the stated limit.
 };
@@ -23,7 +25,8 @@ struct RenderOptions {
 /// an event need not recompute is not recomputed).
 struct WorkCounts {
     int volumeUploads = 0;
-    int transferTables = 0;
+    int transferTables = 0;  ///< Of the function or its running integrals.
+    int preintegrationTables = 0;
     int programsCompiled = 0;  ///< From text.
     int programsFromDisk = 0;  ///< Driver binaries.
     int frames = 0;

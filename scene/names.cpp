@@ -9,6 +9,14 @@
 namespace pellucid {
 
 template <>
+std::span<const EnumName<Accumulation>> enumNames<Accumulation>() {
+    using enum Accumulation;
+    static constexpr std::array<EnumName<Accumulation>, 3> kNames{
+        {{Float32, "float32"}, {Half, "half"}, {EightBit, "8-bit"}}};
+    return kNames;
+}
+
+template <>
 std::span<const EnumName<AnatomicalView>> enumNames<AnatomicalView>() {
     using enum AnatomicalView;
     static constexpr std::array<EnumName<AnatomicalView>, 6> kNames{{{Anterior, "anterior"},
@@ -35,6 +43,21 @@ std::span<const EnumName<Filter>> enumNames<Filter>() {
                                                              {Trilinear, "trilinear"},
                                                              {TricubicBSpline, "tricubic-bspline"},
                                                              {CatmullRom, "catmull-rom"}}};
+    return kNames;
+}
+
+template <>
+std::span<const EnumName<Integrator>> enumNames<Integrator>() {
+    using enum Integrator;
+    static constexpr std::array<EnumName<Integrator>, 9> kNames{{{Riemann, "riemann"},
+                                                                 {Exponential, "exponential"},
+                                                                 {Trapezoid, "trapezoid"},
+                                                                 {Simpson, "simpson"},
+                                                                 {GaussLegendre, "gauss-legendre"},
+                                                                 {Preintegrated2D, "preintegrated-2d"},
+                                                                 {Preintegrated3D, "preintegrated-3d"},
+                                                                 {IntegralFunctions, "integral-functions"},
+                                                                 {Adaptive, "adaptive"}}};
     return kNames;
 }
 

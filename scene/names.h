@@ -9,9 +9,11 @@
 
 namespace pellucid {
 
+enum class Accumulation;
 enum class AnatomicalView;
 enum class CompositingSpace;
 enum class Filter;
+enum class Integrator;
 enum class LightKind;
 enum class Mode;
 enum class Projection;
@@ -25,7 +27,7 @@ struct EnumName {
 };
 
 /// Every enumerator of E in the order of its declaration; this is the one place where their names are
-/// written. Defined for the seven enumerations above.
+/// written. Defined for the nine enumerations above.
 template <class E>
 [[nodiscard]] std::span<const EnumName<E>> enumNames();
 
@@ -45,11 +47,15 @@ template <class E>
 }
 
 template <>
+std::span<const EnumName<Accumulation>> enumNames<Accumulation>();
+template <>
 std::span<const EnumName<AnatomicalView>> enumNames<AnatomicalView>();
 template <>
 std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>();
 template <>
 std::span<const EnumName<Filter>> enumNames<Filter>();
+template <>
+std::span<const EnumName<Integrator>> enumNames<Integrator>();
 template <>
 std::span<const EnumName<LightKind>> enumNames<LightKind>();
 template <>

@@ -41,6 +41,24 @@ enum class XRayDisplay { Transmittance, Opacity };
 /// sRGB-encoded at the end.
 enum class CompositingSpace { Display, Linear };
 
+/// How the volume-rendering integral of a segment is approximated (docs/equations.md, 8 to 15). Modes other
+/// than Composite and XRay sum midpoints whatever it says.
+enum class Integrator {
+    Riemann,            ///< Constant segment, self-attenuation of its emission ignored: the historical form.
+    Exponential,        ///< Constant segment, exact: order 2.
+    Trapezoid,          ///< From both ends: order 2.
+    Simpson,            ///< Ends and middle: order 4 where everything is smooth.
+    GaussLegendre,      ///< Two inner points: order 4 where everything is smooth.
+    Preintegrated2D,    ///< Table over both end values for one segment length.
+    Preintegrated3D,    ///< Table over both end values and the length.
+    IntegralFunctions,  ///< From running integrals of the transfer function, no table over pairs.
+    Adaptive            ///< IntegralFunctions with steps chosen to meet toleranceGreyLevels.
+};
+
+/// Precision in which colour and opacity of a ray are accumulated. The lower ones are for comparison: faint
+/// media stall.
+enum class Accumulation { Float32, Half, EightBit };
+
 /// One drawn volume. Unset members follow from the data (completed()).
 struct VolumeItem {
     std::string name;
@@ -59,6 +77,13 @@ struct Quality {
     double earlyTermination =
         1.0 / 1024.0;  ///< A ray stops when at most this much light can still pass; the stated bound
                        ///< of the error in display units. 0: never stop. In [0, 1).
+    Integrator integrator = Integrator::Exponential;
+    Accumulation accumulation = Accumulation::Float32;
+    bool jitter = false;  ///< Ray starts are shifted within a step by blue noise, the same in every picture.
+    /// Largest error asked for, in grey levels (1/255 of what is shown), > 0. With the adaptive integrator
+    /// its own tolerance (1 when unset); with any other the renderer picks integrator and step that meet it
+    /// most cheaply.
+    std::optional<double> toleranceGreyLevels;
     bool dither = false;
     bool operator==(const Quality&) const = default;
 };

@@ -115,11 +115,16 @@ Camera readCamera(const json& value, const std::string& pointer, JsonComplaints&
 
 Quality readQuality(const json& value, const std::string& pointer, JsonComplaints& complaints) {
     const JsonObject object(value, pointer, complaints,
-                            {"stepVoxels", "stepMm", "earlyTermination", "dither"});
+                            {"stepVoxels", "stepMm", "earlyTermination", "integrator", "accumulation",
+                             "jitter", "toleranceGreyLevels", "dither"});
     Quality quality;
     object.read("stepVoxels", quality.stepVoxels);
     object.read("stepMm", quality.stepMm);
     object.read("earlyTermination", quality.earlyTermination);
+    object.readName("integrator", quality.integrator);
+    object.readName("accumulation", quality.accumulation);
+    object.read("jitter", quality.jitter);
+    object.read("toleranceGreyLevels", quality.toleranceGreyLevels);
     object.read("dither", quality.dither);
     return quality;
 }

@@ -162,6 +162,10 @@ Json write(const Quality& quality, bool full) {
     writer.number("stepVoxels", quality.stepVoxels, ordinary.stepVoxels);
     writer.number("stepMm", quality.stepMm);
     writer.number("earlyTermination", quality.earlyTermination, ordinary.earlyTermination);
+    writer.named("integrator", quality.integrator, ordinary.integrator);
+    writer.named("accumulation", quality.accumulation, ordinary.accumulation);
+    writer.plain("jitter", quality.jitter, ordinary.jitter);
+    writer.number("toleranceGreyLevels", quality.toleranceGreyLevels);
     writer.plain("dither", quality.dither, ordinary.dither);
     return writer.take();
 }

@@ -98,6 +98,8 @@ Result<void> validate(const Scene& scene) {
     check.notNegative(scene.densityScale, "/densityScale");
     check.positive(scene.quality.stepVoxels, "/quality/stepVoxels");
     if (scene.quality.stepMm) check.positive(*scene.quality.stepMm, "/quality/stepMm");
+    if (scene.quality.toleranceGreyLevels)
+        check.positive(*scene.quality.toleranceGreyLevels, "/quality/toleranceGreyLevels");
     check.require(scene.quality.earlyTermination >= 0.0 && scene.quality.earlyTermination < 1.0,
                   "/quality/earlyTermination", scene.quality.earlyTermination, "a number in [0, 1)");
     for (int i = 0; i < 2; ++i)

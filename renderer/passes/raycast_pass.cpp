@@ -72,9 +72,11 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
     glBindVertexArray(m_noVertices.id());
     glBindTextureUnit(0, inputs.volumeTexture);
     glBindSampler(0, inputs.interpolates ? m_linear.id() : m_nearest.id());
-    if (inputs.transferTable != 0) {
-        glBindTextureUnit(1, inputs.transferTable);
-        glBindSampler(1, m_linear.id());
+    const GLuint tables[] = {inputs.transferTable, inputs.segmentTable, inputs.blueNoise};
+    for (GLuint i = 0; i < 3; ++i) {
+        if (tables[i] == 0) continue;
+        glBindTextureUnit(1 + i, tables[i]);
+        glBindSampler(1 + i, m_linear.id());
     }
     if (inputs.lightsBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 0, inputs.lightsBlock);
     glBindFramebuffer(GL_FRAMEBUFFER, inputs.target->framebuffer.id());

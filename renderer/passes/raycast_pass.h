@@ -17,6 +17,8 @@ struct RaycastInputs {
     const Uniforms* uniforms = nullptr;
     GLuint volumeTexture = 0;
     GLuint transferTable = 0;  ///< 0: none.
+    GLuint segmentTable = 0;   ///< Pre-integration or integral table; 0: none.
+    GLuint blueNoise = 0;      ///< 0: none.
     GLuint lightsBlock = 0;    ///< 0: none.
     bool interpolates = true;  ///< The volume's sampler is linear.
     const ResourceStore::Target* target = nullptr;

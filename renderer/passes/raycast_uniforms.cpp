@@ -54,23 +54,53 @@ void addGeometry(Uniforms& uniforms, const Grid& grid, double texelExtent) {
     uniforms.emplace_back("gradientFloor", static_cast<float>(1e-6 * texelExtent));
 }
 
-void addTable(Uniforms& uniforms, const Scene& scene, const VolumeTexture& volume,
-              const TransferTexture& table) {
-    const auto& layout = table.layout;
-    // Entry i stands at texture coordinate (i + 0.5) / size and at physical value lo + i (hi - lo) / (size -
-    // 1).
-    const double perPhysical =
-        layout.hi > layout.lo ? (layout.size - 1.0) / layout.size / (layout.hi - layout.lo) : 0.0;
-    const double atLo = 0.5 / layout.size;
-    uniforms.emplace_back("tableFromValue",
-                          glm::vec2(volume.physicalPerTexel() * perPhysical,
-                                    (volume.physicalAtZero() - layout.lo) * perPhysical + atLo));
-    const double perMm = scene.densityScale / *scene.unitLengthMm;
-    uniforms.emplace_back("extinctionPerMm", static_cast<float>(perMm));
-    // Opacity of one unit length, as extinction per mm; a hair lower, so that a plateau at the threshold
-    // itself counts.
-    uniforms.emplace_back("hitExtinctionPerMm", static_cast<float>(extinctionFromOpacity(scene.hitOpacity) /
-                                                                   *scene.unitLengthMm * (1.0 - 1e-6)));
+/// A table coordinate (or position) of entry i of `size`, i = (value - lo) / (hi - lo) * (size - 1), as a
+/// line over u: i * scale + offset.
+glm::vec2 entryFromTexel(const VolumeTexture& volume, double lo, double hi, int size, double scale,
+                         double offset) {
+    const double perPhysical = hi > lo ? (size - 1.0) / (hi - lo) * scale : 0.0;
+    return {volume.physicalPerTexel() * perPhysical, (volume.physicalAtZero() - lo) * perPhysical + offset};
+}
+
+/// Entry i stands at texture coordinate (i + 0.5) / size.
+glm::vec2 coordinateFromTexel(const VolumeTexture& volume, double lo, double hi, int size) {
+    return entryFromTexel(volume, lo, hi, size, 1.0 / size, 0.5 / size);
+}
+
+void addTables(Uniforms& uniforms, const Plan& plan, const VolumeTexture& volume, const FrameTables& tables) {
+    if (tables.transfer != nullptr) {
+        const auto& layout = tables.transfer->layout;
+        uniforms.emplace_back("tableFromValue",
+                              coordinateFromTexel(volume, layout.lo, layout.hi, layout.size));
+    }
+    if (tables.preintegration != nullptr) {
+        const auto& layout = tables.preintegration->layout;
+        uniforms.emplace_back("preintegrationFromValue",
+                              coordinateFromTexel(volume, layout.lo, layout.hi, layout.size));
+        uniforms.emplace_back(
+            "preintegrationFromLength",
+            glm::vec2((layout.layers - 1.0) / layout.layers / plan.stepMm, 0.5 / layout.layers));
+    }
+    if (tables.integrals != nullptr) {
+        const auto& table = *tables.integrals;
+        uniforms.emplace_back("integralFromValue",
+                              entryFromTexel(volume, table.lo, table.hi, table.size, 1.0, 0.0));
+    }
+}
+
+/// The adaptive integrator takes a value in the middle of each segment, so segments of two steps keep values
+/// no further apart than asked.
+void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan) {
+    constexpr double kShortest = 1.0 / 64.0;  // of a step; what is left there is a jump that no step resolves
+    const bool adaptive = plan.features.integrator == Integrator::Adaptive;
+    uniforms.emplace_back("stepMm", static_cast<float>(adaptive ? 2.0 * plan.stepMm : plan.stepMm));
+    if (!adaptive) return;
+    uniforms.emplace_back("shortestStepMm", static_cast<float>(kShortest * plan.stepMm));
+    uniforms.emplace_back("tolerance",
+                          static_cast<float>(scene.quality.toleranceGreyLevels.value_or(1.0) / 255.0));
+    // Every segment may be refused a few times before it is short enough; no ray ends here.
+    uniforms.emplace_back("mostSegments",
+                          static_cast<int>(std::min(4.0 * plan.samplesPerRay / kShortest + 64.0, 1e9)));
 }
 
 /// The most light a point can send relative to its colour: what is hidden behind transmittance T changes the
@@ -87,13 +117,13 @@ double brightestReflection(const Scene& scene) {
 }  // namespace
 
 Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid, const VolumeTexture& volume,
-                         const TransferTexture* table) {
+                         const FrameTables& tables) {
     Uniforms uniforms;
     const auto& item = scene.volumes.front();
     uniforms.emplace_back("pictureSize", glm::vec2(scene.picture.size));
     addRay(uniforms, rayFrame(scene.camera, grid, scene.picture.size), grid);
     addGeometry(uniforms, grid, volume.texelExtent);
-    uniforms.emplace_back("stepMm", static_cast<float>(plan.stepMm));
+    addAdaptive(uniforms, scene, plan);
     glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
     const bool linear = plan.features.space == CompositingSpace::Linear;
     if (linear)
@@ -111,13 +141,25 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     }
     if (scene.mode == Mode::Isosurface)
         uniforms.emplace_back("isovalue", static_cast<float>(volume.texelFromPhysical(*item.isovalue)));
-    if (table != nullptr) addTable(uniforms, scene, volume, *table);
+    if (usesTransferFunction(scene.mode)) {
+        uniforms.emplace_back("extinctionPerMm",
+                              static_cast<float>(scene.densityScale / *scene.unitLengthMm));
+        // Opacity of one unit length, as extinction per mm; a hair lower, so that a plateau at the threshold
+        // itself counts.
+        uniforms.emplace_back(
+            "hitExtinctionPerMm",
+            static_cast<float>(extinctionFromOpacity(scene.hitOpacity) / *scene.unitLengthMm * (1.0 - 1e-6)));
+    }
+    addTables(uniforms, plan, volume, tables);
     // The sRGB curve is 12.92 times steeper in the dark than light-linear values.
     const double steepest = (linear ? 12.92 : 1.0) * brightestReflection(scene);
     uniforms.emplace_back("terminationTransmittance",
                           static_cast<float>(plan.earlyTerminationBound / steepest));
     uniforms.emplace_back("volumeTexture", 0);
     uniforms.emplace_back("transferTable", 1);
+    uniforms.emplace_back("preintegrationTable", 2);
+    uniforms.emplace_back("integralTable", 2);
+    uniforms.emplace_back("blueNoise", 3);
     return uniforms;
 }
 

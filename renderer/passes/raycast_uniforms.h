@@ -14,6 +14,7 @@
 #include <glm/vec4.hpp>
 
 #include "renderer/plan/plan.h"
+#include "renderer/resources/preintegration_texture.h"
 #include "renderer/resources/transfer_texture.h"
 #include "renderer/resources/volume_texture.h"
 
@@ -22,11 +23,18 @@ namespace pellucid::renderer {
 using UniformValue = std::variant<int, float, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4>;
 using Uniforms = std::vector<std::pair<std::string, UniformValue>>;
 
+/// The tables of a frame; null where the plan has none.
+struct FrameTables {
+    const TransferTexture* transfer = nullptr;
+    const PreintegrationTexture* preintegration = nullptr;
+    const IntegralTexture* integrals = nullptr;
+};
+
 /// Numbers of a frame. All that any stage of the plan may declare; those it does not are skipped when they
 /// are set. `table` is null in modes without a transfer function. Everything is computed in double relative
 /// to the volume's centre.
 [[nodiscard]] Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
-                                       const VolumeTexture& volume, const TransferTexture* table);
+                                       const VolumeTexture& volume, const FrameTables& tables);
 
 /// The std140 block of shade/blinn_phong.glsl: colour * intensity, then direction to the light (w 0) or
 /// position (w 1), render coordinates.

@@ -4,6 +4,10 @@
 
 namespace pellucid::renderer {
 
+bool integratesSegments(Integrator integrator) {
+    return integrator != Integrator::Riemann && integrator != Integrator::Exponential;
+}
+
 Features featuresOf(const Scene& scene) {
     Features features;
     features.mode = scene.mode;
@@ -13,6 +17,15 @@ Features featuresOf(const Scene& scene) {
     features.lights = features.lit ? static_cast<int>(scene.lights->size()) : 0;
     features.earlyTermination = scene.mode == Mode::Composite && scene.quality.earlyTermination > 0.0;
     if (scene.mode == Mode::XRay) features.xray = scene.xray;
+    if (scene.mode == Mode::Composite || scene.mode == Mode::XRay)
+        features.integrator = scene.quality.integrator;
+    // The two one-sample rules differ in emission only.
+    if (scene.mode == Mode::XRay && features.integrator == Integrator::Riemann)
+        features.integrator = Integrator::Exponential;
+    if (scene.mode == Mode::Composite) features.accumulation = scene.quality.accumulation;
+    const bool marches =
+        scene.mode != Mode::Slice && scene.mode != Mode::FirstHit && scene.mode != Mode::Isosurface;
+    features.jitter = scene.quality.jitter && marches && features.integrator != Integrator::Adaptive;
     const bool showsColours = usesTransferFunction(scene.mode) && scene.mode != Mode::XRay;
     if (showsColours) features.space = scene.space;
     return features;

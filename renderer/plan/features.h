@@ -17,10 +17,16 @@ struct Features {
     bool lit = false;
     int lights = 0;  ///< Count of lights; 0 unless lit.
     bool earlyTermination = false;
+    Integrator integrator = Integrator::Exponential;    ///< Composite and XRay only.
+    Accumulation accumulation = Accumulation::Float32;  ///< Composite only.
+    bool jitter = false;                                ///< Where rays have steps of one length.
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
     bool operator==(const Features&) const = default;
 };
+
+/// Integrators that look at both ends of a segment; the others take one sample in its middle.
+[[nodiscard]] bool integratesSegments(Integrator integrator);
 
 /// Pure; drops what cannot matter (no lights in a mode that does not shade, no termination where nothing
 /// saturates). Precondition: the scene is completed().

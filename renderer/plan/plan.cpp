@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/plan/preintegration.h"
 #include "renderer/plan/stages.h"
 #include "renderer/plan/transfer_table.h"
 #include "renderer/plan/volume_format.h"
@@ -49,6 +50,30 @@ void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) 
         {"transfer table", "texture 1D RGBA32F", static_cast<std::uint64_t>(layout.size) * 16,
          fmt::format("{} entries over {:g} ... {:g}; largest difference from the function {:.2g}",
                      layout.size, layout.lo, layout.hi, layout.worstError)});
+}
+
+void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
+    const auto integrator = plan.features.integrator;
+    if (integrator == Integrator::Preintegrated2D || integrator == Integrator::Preintegrated3D) {
+        const auto layout = layoutPreintegration(scene, plan, facts);
+        const auto entries =
+            static_cast<std::uint64_t>(layout.size) * static_cast<std::uint64_t>(layout.size * layout.layers);
+        plan.resources.push_back(
+            {"pre-integration table", layout.layers == 1 ? "texture 2D RGBA32F" : "texture 3D RGBA32F",
+             entries * 16,
+             fmt::format("{0} x {0} end values over {1:g} ... {2:g}, {3} length{4}", layout.size, layout.lo,
+                         layout.hi, layout.layers, layout.layers == 1 ? "" : "s")});
+    } else if (integrator == Integrator::IntegralFunctions || integrator == Integrator::Adaptive) {
+        const int size = integralTableSize(facts.type);
+        plan.resources.push_back({"integral table", "texture 1D RGBA32F",
+                                  static_cast<std::uint64_t>(size) * 16,
+                                  fmt::format("running integrals at {} values", size)});
+    }
+}
+
+bool has(const Plan& plan, std::string_view stage, std::string_view variant) {
+    return std::any_of(plan.stages.begin(), plan.stages.end(),
+                       [&](const StageRow& row) { return row.stage == stage && row.variant == variant; });
 }
 
 }  // namespace
@@ -107,7 +132,11 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
                               textureBytes(facts),
                               fmt::format("{} x {} x {} voxels of {}", facts.grid.size.x, facts.grid.size.y,
                                           facts.grid.size.z, name(facts.type))});
-    if (usesTransferFunction(scene.mode)) addTransferTable(plan, scene, facts);
+    if (has(plan, "classify", "tf1d")) addTransferTable(plan, scene, facts);
+    addPreintegration(plan, scene, facts);
+    if (plan.features.jitter)
+        plan.resources.push_back(
+            {"blue noise", "texture 2D R32F", 64 * 64 * 4, "one offset a pixel, repeated"});
     if (plan.features.lit)
         plan.resources.push_back(
             {"lights", "uniform block", kBytesPerLight * static_cast<std::uint64_t>(plan.features.lights),

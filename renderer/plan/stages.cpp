@@ -34,19 +34,32 @@ std::span<const StageVariant> stageTable() {
          {},
          {"reconstruct"}},
         {"shade", "blinn_phong", {"material"}, {"Lights"}, {"gradient"}},
+        {"accumulate", "float32", {}, {}, {}},
+        {"accumulate", "half", {}, {}, {}},
+        {"accumulate", "unorm8", {}, {}, {}},
         {"terminate", "transmittance", {"terminationTransmittance"}, {}, {}},
-        {"compose", "over", {}, {}, {"classify"}},
+        {"compose", "over", {}, {}, {"integrate", "accumulate"}},
+        {"compose", "over_segments", {}, {}, {"integrate", "accumulate"}},
         {"compose", "mip", {}, {}, {"classify"}},
         {"compose", "minip", {}, {}, {"classify"}},
         {"compose", "average", {}, {}, {"classify"}},
         {"compose", "xray_opacity", {}, {}, {"classify"}},
         {"compose", "xray_transmittance", {}, {}, {"classify"}},
+        {"compose", "xray_opacity_segments", {}, {}, {"integrate"}},
+        {"compose", "xray_transmittance_segments", {}, {}, {"integrate"}},
         {"compose", "emission", {}, {}, {"classify"}},
         {"compose", "first_hit", {"hitExtinctionPerMm"}, {}, {"classify", "reconstruct"}},
         {"compose", "isosurface", {"isovalue"}, {}, {"classify", "reconstruct"}},
         {"compose", "slice", {}, {}, {"classify"}},
+        {"jitter", "blue_noise", {"blueNoise"}, {}, {}},
         {"traverse", "midpoints", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "midpoints_by_four", {"stepMm"}, {}, {"reconstruct", "compose"}},
+        {"traverse", "segments", {"stepMm"}, {}, {"reconstruct", "compose"}},
+        {"traverse",
+         "adaptive",
+         {"stepMm", "shortestStepMm", "tolerance", "mostSegments"},
+         {},
+         {"reconstruct", "compose"}},
         {"traverse", "boundaries", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "plane", {"planeForward", "planeFromAnchorMm"}, {}, {"reconstruct", "compose"}},
         {"encode", "srgb", {"transparentPicture"}, {}, {}},
@@ -89,12 +102,51 @@ StageRow reconstructRow(Filter filter) {
     return {"reconstruct", "catmull_rom", "filter catmull-rom"};
 }
 
+StageRow integrateRow(Integrator integrator) {
+    const auto row = [&](const char* variant) {
+        return StageRow{"integrate", variant, fmt::format("integrator {}", name(integrator))};
+    };
+    switch (integrator) {
+        case Integrator::Riemann:
+            return row("riemann");
+        case Integrator::Exponential:
+            return row("exponential");
+        case Integrator::Trapezoid:
+            return row("trapezoid");
+        case Integrator::Simpson:
+            return row("simpson");
+        case Integrator::GaussLegendre:
+            return row("gauss_legendre");
+        case Integrator::Preintegrated2D:
+            return row("preintegrated_2d");
+        case Integrator::Preintegrated3D:
+            return row("preintegrated_3d");
+        case Integrator::IntegralFunctions:
+        case Integrator::Adaptive:
+            break;
+    }
+    return row("integral_functions");
+}
+
+StageRow accumulateRow(Accumulation accumulation) {
+    switch (accumulation) {
+        case Accumulation::Half:
+            return {"accumulate", "half", "accumulation half, for comparison"};
+        case Accumulation::EightBit:
+            return {"accumulate", "unorm8", "accumulation 8-bit, for comparison"};
+        case Accumulation::Float32:
+            break;
+    }
+    return {"accumulate", "float32", "front to back, weights are differences of transmittance"};
+}
+
 StageRow composeRow(const Features& features) {
     const std::string reason = fmt::format("mode {}", name(features.mode));
     const auto row = [&](const char* variant) { return StageRow{"compose", variant, reason}; };
+    const bool segments = integratesSegments(features.integrator);
     switch (features.mode) {
         case Mode::Composite:
-            return row("over");
+            return row(segments ? "over_segments" : "over");
         case Mode::Mip:
             return row("mip");
         case Mode::MinIp:
@@ -102,7 +154,9 @@ StageRow composeRow(const Features& features) {
         case Mode::Average:
             return row("average");
         case Mode::XRay:
-            return row(features.xray == XRayDisplay::Opacity ? "xray_opacity" : "xray_transmittance");
+            if (features.xray == XRayDisplay::Opacity)
+                return row(segments ? "xray_opacity_segments" : "xray_opacity");
+            return row(segments ? "xray_transmittance_segments" : "xray_transmittance");
         case Mode::Emission:
             return row("emission");
         case Mode::FirstHit:
@@ -120,11 +174,21 @@ StageRow traverseRow(const Features& features) {
     if (mode == Mode::Slice) return {"traverse", "plane", "a slice is one sample a ray"};
     if (mode == Mode::FirstHit || mode == Mode::Isosurface)
         return {"traverse", "boundaries", "a surface is searched between samples"};
+    if (features.integrator == Integrator::Adaptive)
+        return {"traverse", "adaptive", "steps follow the error estimate of each segment"};
+    if (integratesSegments(features.integrator))
+        return {"traverse", "segments", "equal segments, integrated from both ends"};
     // Unrolling a cubic filter's 8 or 27 fetches would only make the program longer to compile.
     if (features.filter == Filter::Nearest || features.filter == Filter::Trilinear)
         return {"traverse", "midpoints_by_four",
                 "equal segments; a value is one fetch, so four are taken a turn"};
     return {"traverse", "midpoints", "equal segments, each with its own length"};
+}
+
+/// True when the integrate stage classifies single values too.
+bool needsClassify(const Features& features) {
+    return features.integrator != Integrator::Preintegrated2D &&
+           features.integrator != Integrator::Preintegrated3D;
 }
 
 }  // namespace
@@ -135,12 +199,17 @@ StageChoice chooseStages(const Features& features) {
     auto& leftOut = choice.leftOut;
     rows.push_back(rayRow(features.projection));
     rows.push_back(reconstructRow(features.filter));
-    if (usesTransferFunction(features.mode)) {
-        rows.push_back({"classify", "tf1d", "colours and extinction come from the transfer function"});
-    } else {
+    if (!usesTransferFunction(features.mode)) {
         rows.push_back({"classify", "window", "the mode shows values through the window"});
         leftOut.push_back({"transfer table", "the mode shows values through the window"});
+    } else if (needsClassify(features)) {
+        rows.push_back({"classify", "tf1d", "colours and extinction come from the transfer function"});
+    } else {
+        leftOut.push_back({"classify", "the pre-integration table holds what the function would say"});
     }
+    const bool integrates = features.mode == Mode::Composite ||
+                            (features.mode == Mode::XRay && integratesSegments(features.integrator));
+    if (integrates) rows.push_back(integrateRow(features.integrator));
     if (features.lit) {
         rows.push_back({"gradient", "central_difference", "shading needs a normal"});
         rows.push_back(
@@ -151,6 +220,7 @@ StageChoice chooseStages(const Features& features) {
             usesLights(features.mode) ? "the scene has no light" : "the mode is not lit";
         for (const char* what : {"gradient", "shade", "lights"}) leftOut.push_back({what, reason});
     }
+    if (features.mode == Mode::Composite) rows.push_back(accumulateRow(features.accumulation));
     if (features.earlyTermination) {
         rows.push_back({"terminate", "transmittance", "rays stop when nothing behind can show"});
     } else {
@@ -159,6 +229,11 @@ StageChoice chooseStages(const Features& features) {
                                             : "the mode needs the whole ray"});
     }
     rows.push_back(composeRow(features));
+    if (features.jitter) {
+        rows.push_back({"jitter", "blue_noise", "ray starts are shifted within a step"});
+    } else {
+        leftOut.push_back({"jitter", "not asked for, or the mode has no steps of one length"});
+    }
     rows.push_back(traverseRow(features));
     if (features.space == CompositingSpace::Linear) {
         rows.push_back({"encode", "srgb", "colours are blended in linear light"});

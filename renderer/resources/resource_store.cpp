@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/resources/resource_store.h"
 
+#include "renderer/resources/blue_noise.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +25,36 @@ bool toFront(std::list<T>& entries, const Matches& matches) {
     return true;
 }
 
-bool sameLayout(const TableLayout& a, const TableLayout& b) {
-    return a.lo == b.lo && a.hi == b.hi && a.size == b.size;
+bool isFrom(const TableLayout& a, const TransferTexture& table) {
+    return a.lo == table.layout.lo && a.hi == table.layout.hi && a.size == table.layout.size;
+}
+bool isFrom(const PreintegrationLayout& layout, const PreintegrationTexture& table) {
+    return layout == table.layout;
+}
+
+struct IntegralLayout {
+    double lo, hi;
+    int size;
+};
+bool isFrom(const IntegralLayout& layout, const IntegralTexture& table) {
+    return layout.lo == table.lo && layout.hi == table.hi && layout.size == table.size;
+}
+
+/// The entry for these values, at the front of the list; made by `make` (from the function in its compositing
+/// space) when there is none.
+template <class Entries, class Layout, class Make>
+auto& findOrMake(Entries& entries, const TransferFunction1D& function, CompositingSpace space,
+                 const Layout& layout, int& counter, const Make& make) {
+    const bool known = toFront(entries, [&](const auto& entry) {
+        return entry.space == space && isFrom(layout, entry.table) &&
+               entry.function.points == function.points;
+    });
+    if (!known) {
+        entries.push_front({function, space, make(inCompositingSpace(function, space))});
+        ++counter;
+        if (entries.size() > kKeptTables) entries.pop_back();
+    }
+    return entries.front().table;
 }
 
 }  // namespace
@@ -43,17 +73,31 @@ Result<const VolumeTexture*> ResourceStore::volume(const VolumePtr& volume, int 
 
 const TransferTexture& ResourceStore::table(const TransferFunction1D& function, CompositingSpace space,
                                             const TableLayout& layout) {
-    const bool known = toFront(m_tables, [&](const TableEntry& entry) {
-        return entry.space == space && sameLayout(entry.table.layout, layout) &&
-               entry.function.points == function.points;
-    });
-    if (!known) {
-        m_tables.push_front(
-            {function, space, uploadTransferTable(inCompositingSpace(function, space), layout)});
-        ++counts.transferTables;
-        if (m_tables.size() > kKeptTables) m_tables.pop_back();
-    }
-    return m_tables.front().table;
+    return findOrMake(
+        m_tables, function, space, layout, counts.transferTables,
+        [&](const TransferFunction1D& converted) { return uploadTransferTable(converted, layout); });
+}
+
+PreintegrationTexture& ResourceStore::preintegration(const TransferFunction1D& function,
+                                                     CompositingSpace space,
+                                                     const PreintegrationLayout& layout, bool wait) {
+    return findOrMake(
+        m_preintegrations, function, space, layout, counts.preintegrationTables,
+        [&](const TransferFunction1D& converted) { return uploadPreintegration(converted, layout, wait); });
+}
+
+const IntegralTexture& ResourceStore::integrals(const TransferFunction1D& function, CompositingSpace space,
+                                                const TableLayout& domain, int size) {
+    const IntegralLayout layout{domain.lo, domain.hi, size};
+    return findOrMake(m_integrals, function, space, layout, counts.transferTables,
+                      [&](const TransferFunction1D& converted) {
+                          return uploadIntegrals(converted, domain.lo, domain.hi, size);
+                      });
+}
+
+const GlTexture& ResourceStore::blueNoise() {
+    if (!m_blueNoise) m_blueNoise = createBlueNoise();
+    return m_blueNoise;
 }
 
 const GlBuffer& ResourceStore::lights(const std::vector<glm::vec4>& block) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "renderer/renderer.h"
+#include "renderer/resources/preintegration_texture.h"
 #include "renderer/resources/transfer_texture.h"
 #include "renderer/resources/volume_texture.h"
 
@@ -19,6 +20,13 @@ public:
                                                       const Progress& progress);
     [[nodiscard]] const TransferTexture& table(const TransferFunction1D& function, CompositingSpace space,
                                                const TableLayout& layout);
+    /// `wait` false allows a preview (completePreintegration tells).
+    [[nodiscard]] PreintegrationTexture& preintegration(const TransferFunction1D& function,
+                                                        CompositingSpace space,
+                                                        const PreintegrationLayout& layout, bool wait);
+    [[nodiscard]] const IntegralTexture& integrals(const TransferFunction1D& function, CompositingSpace space,
+                                                   const TableLayout& domain, int size);
+    [[nodiscard]] const GlTexture& blueNoise();
     /// A std140 block with the scene's lights; kept while the lights are the same.
     [[nodiscard]] const GlBuffer& lights(const std::vector<glm::vec4>& block);
     /// The float target, kept while its size is the same.
@@ -38,14 +46,19 @@ private:
         int component = 0;
         VolumeTexture texture;
     };
-    struct TableEntry {
+    /// A table and what it was made from.
+    template <class Table>
+    struct FunctionTable {
         TransferFunction1D function;
         CompositingSpace space = CompositingSpace::Display;
-        TransferTexture table;
+        Table table;
     };
     std::list<VolumeEntry> m_volumes;
-    std::list<TableEntry> m_tables;  // most recently used first
-    std::list<Target> m_targets;     // most recently used first
+    std::list<FunctionTable<PreintegrationTexture>> m_preintegrations;
+    std::list<FunctionTable<IntegralTexture>> m_integrals;
+    GlTexture m_blueNoise;
+    std::list<FunctionTable<TransferTexture>> m_tables;  // most recently used first
+    std::list<Target> m_targets;                         // most recently used first
     std::vector<glm::vec4> m_lightBlock;
     GlBuffer m_lights;
 };

@@ -176,6 +176,10 @@ Scene randomScene(std::mt19937_64& random) {
     if (make.coin()) scene.quality.stepVoxels = make.positive();
     if (make.coin()) scene.quality.stepMm = make.positive();
     if (make.coin()) scene.quality.earlyTermination = std::min(make.unit(), std::nextafter(1.0, 0.0));
+    scene.quality.integrator = make.anyOf<Integrator>();
+    scene.quality.accumulation = make.anyOf<Accumulation>();
+    scene.quality.jitter = make.coin();
+    if (make.coin()) scene.quality.toleranceGreyLevels = make.positive();
     scene.quality.dither = make.coin();
     if (make.coin()) scene.picture.size = {make.integer(1, 16384), make.integer(1, 16384)};
     if (make.coin()) scene.picture.background = make.color();

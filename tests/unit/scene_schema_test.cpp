@@ -149,11 +149,16 @@ std::vector<std::string> namesOf() {
 TEST(SceneSchema, ListsOfNamesAreThoseOfTheCode) {
     std::vector<std::string> presets;
     for (const VolumePreset& preset : volumePresets()) presets.push_back(preset.name);
-    const std::map<std::string, std::vector<std::string>> expected{
-        {"mode", namesOf<Mode>()},           {"filter", namesOf<Filter>()},
-        {"xray", namesOf<XRayDisplay>()},    {"space", namesOf<CompositingSpace>()},
-        {"kind", namesOf<LightKind>()},      {"projection", namesOf<Projection>()},
-        {"view", namesOf<AnatomicalView>()}, {"preset", presets}};
+    const std::map<std::string, std::vector<std::string>> expected{{"mode", namesOf<Mode>()},
+                                                                   {"filter", namesOf<Filter>()},
+                                                                   {"xray", namesOf<XRayDisplay>()},
+                                                                   {"space", namesOf<CompositingSpace>()},
+                                                                   {"kind", namesOf<LightKind>()},
+                                                                   {"projection", namesOf<Projection>()},
+                                                                   {"integrator", namesOf<Integrator>()},
+                                                                   {"accumulation", namesOf<Accumulation>()},
+                                                                   {"view", namesOf<AnatomicalView>()},
+                                                                   {"preset", presets}};
     std::size_t lists = 0;
     forEachProperty([&](const ObjectPlace& place, const std::string& name, const json& property) {
         if (!property.contains("enum")) return;

@@ -5,6 +5,14 @@ uniform float stepMm;
 void traverse(float tEnter, float tExit) {
     vec3 start = ray.texOrigin + tEnter * ray.texDirection;
     float extent = tExit - tEnter;
+    //@when jitter
+    float first = min(rayOffset() * stepMm, extent);
+    vec3 inFirst = start + 0.5 * first * ray.texDirection;
+    composeSample(reconstruct(inFirst), inFirst, tEnter + 0.5 * first, first);
+    start += first * ray.texDirection;
+    tEnter += first;
+    extent -= first;
+    //@end
     int count = max(int(ceil(extent / stepMm)), 1);
     for (int i = 0; i < count; ++i) {
         float from = float(i) * stepMm;

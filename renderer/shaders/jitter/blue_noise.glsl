@@ -1,0 +1,8 @@
+// Ray starts shifted by a part of a step (Engel et al. 2006, section 9.1.4): rings become noise without low frequencies. The first
+// segment is shortened like the last, so nothing is left out at either end of the ray.
+uniform sampler2D blueNoise;   // 64 x 64, each of 4096 ranks once
+
+float rayOffset() {
+    ivec2 pixelPlace = ivec2(gl_FragCoord.xy + targetOrigin) & 63;
+    return texelFetch(blueNoise, pixelPlace, 0).r;
+}
