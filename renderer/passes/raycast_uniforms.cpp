@@ -88,16 +88,16 @@ void addTables(Uniforms& uniforms, const Plan& plan, const VolumeTexture& volume
     }
 }
 
-/// The adaptive integrator takes a value in the middle of each segment, so segments of two steps keep values
-/// no further apart than asked.
+/// The step, and for the adaptive integrator the step it starts from and never exceeds.
 void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan) {
     constexpr double kShortest = 1.0 / 64.0;  // of a step; what is left there is a jump that no step resolves
+    constexpr double kSafety = 0.5;           // estimates are not bounds
     const bool adaptive = plan.features.integrator == Integrator::Adaptive;
-    uniforms.emplace_back("stepMm", static_cast<float>(adaptive ? 2.0 * plan.stepMm : plan.stepMm));
+    uniforms.emplace_back("stepMm", static_cast<float>(plan.stepMm));
     if (!adaptive) return;
     uniforms.emplace_back("shortestStepMm", static_cast<float>(kShortest * plan.stepMm));
-    uniforms.emplace_back("tolerance",
-                          static_cast<float>(scene.quality.toleranceGreyLevels.value_or(1.0) / 255.0));
+    uniforms.emplace_back(
+        "tolerance", static_cast<float>(scene.quality.toleranceGreyLevels.value_or(1.0) / 255.0 * kSafety));
     // Every segment may be refused a few times before it is short enough; no ray ends here.
     uniforms.emplace_back("mostSegments",
                           static_cast<int>(std::min(4.0 * plan.samplesPerRay / kShortest + 64.0, 1e9)));

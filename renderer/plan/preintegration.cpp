@@ -132,7 +132,7 @@ PreintegrationLayout layoutPreintegration(const Scene& scene, const Plan& plan, 
     PreintegrationLayout layout{domain.lo, domain.hi, is8Bit(facts.type) ? 256 : 512, 1,
                                 plan.stepMm / *scene.unitLengthMm * scene.densityScale};
     if (plan.features.integrator == Integrator::Preintegrated3D) {
-        layout.size /= 3;
+        layout.size = 256;
         layout.layers = kLayers;
     }
     if (!(layout.hi > layout.lo)) layout.size = 2;

@@ -41,7 +41,7 @@ struct PreintegrationLayout {
     bool operator==(const PreintegrationLayout&) const = default;
 };
 
-/// 256 end values for 8-bit data and 512 otherwise; a third of it and 8 layers with the length as third axis.
+/// 256 end values for 8-bit data and 512 otherwise; with the length as third axis 256 and 8 lengths.
 [[nodiscard]] PreintegrationLayout layoutPreintegration(const Scene& scene, const Plan& plan,
                                                         const VolumeFacts& facts);
 

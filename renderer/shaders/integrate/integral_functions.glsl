@@ -14,22 +14,25 @@ vec4 integralAt(float position) {
     return mix(lower, upper, clamp(position - i, 0.0, 1.0));
 }
 
-vec4 integrateSegment(float uFront, float uBack, vec3 front, vec3 back, float lengthMm) {
+// Mean of kappa c and kappa (per mm) over the values from one to the other.
+vec4 meanOptics(float uFrom, float uTo) {
     float last = float(textureSize(integralTable, 0) - 1);
-    vec2 position = vec2(uFront, uBack) * integralFromValue.x + integralFromValue.y;
-    vec4 a = classify(uFront);
-    vec4 b = classify(uBack);
-    float apart = position.y - position.x;
+    vec2 position = vec2(uFrom, uTo) * integralFromValue.x + integralFromValue.y;
+    vec4 a = classify(uFrom);
+    vec4 b = classify(uTo);
+    a.rgb *= a.a;
+    b.rgb *= b.a;
     // Outside the table the function is constant: its value times the way outside belongs to the integral.
     vec2 inside = clamp(position, 0.0, last);
-    vec4 integral = integralAt(inside.y) - integralAt(inside.x);
     vec2 outside = position - inside;
-    vec4 frontOptical = vec4(a.rgb * a.a, a.a) / extinctionPerMm;
-    vec4 backOptical = vec4(b.rgb * b.a, b.a) / extinctionPerMm;
-    integral += outside.y * backOptical - outside.x * frontOptical;
-    vec4 ends = 0.5 * (frontOptical + backOptical);
-    vec4 mean = abs(apart) > 0.5 ? integral / apart : ends;
-    mean.a = max(mean.a, 0.0);
-    vec3 color = mean.a > 0.0 ? clamp(mean.rgb / mean.a, 0.0, 1.0) : a.rgb;
-    return vec4(color, mean.a * extinctionPerMm * lengthMm);
+    vec4 integral = extinctionPerMm * (integralAt(inside.y) - integralAt(inside.x)) + outside.y * b - outside.x * a;
+    float apart = position.y - position.x;
+    vec4 mean = abs(apart) > 0.5 ? integral / apart : 0.5 * (a + b);
+    return max(mean, 0.0);
+}
+
+vec4 integrateSegment(float uFront, float uBack, vec3 front, vec3 back, float lengthMm) {
+    vec4 mean = meanOptics(uFront, uBack);
+    vec3 color = mean.a > 0.0 ? min(mean.rgb / mean.a, 1.0) : classify(uFront).rgb;
+    return vec4(color, mean.a * lengthMm);
 }

@@ -31,7 +31,16 @@ void traverse(float tEnter, float tExit) {
         vec3 once = (1.0 - exp(-whole.a)) * whole.rgb;
         vec3 twice = (1.0 - throughA) * a.rgb + (throughA - throughBoth) * b.rgb;
         vec3 apart = abs(once - twice);
-        float error = visible * max(max(apart.r, max(apart.g, apart.b)), abs(exp(-whole.a) - throughBoth));
+        // Between the samples the field may leave the values seen, by about its deviation from a line; what the function does there must
+        // not matter either, or a thin peak just out of reach would go unseen.
+        float lowest = min(uFront, min(uMiddle, uBack));
+        float highest = max(uFront, max(uMiddle, uBack));
+        float beyond = 4.0 * abs(uMiddle - 0.5 * (uFront + uBack));
+        vec4 unseen = max(abs(meanOptics(lowest - beyond, lowest) - meanOptics(lowest, lowest)),
+                          abs(meanOptics(highest, highest + beyond) - meanOptics(highest, highest)));
+        float missed = 1.0 * lengthMm * max(max(unseen.r, unseen.g), max(unseen.b, unseen.a));
+        float seen = max(max(apart.r, max(apart.g, apart.b)), abs(exp(-whole.a) - throughBoth));
+        float error = visible * max(seen, min(missed, 1.0));
         float allowed = tolerance * lengthMm / extent;
         if (error <= allowed || lengthMm <= shortestStepMm) {
             if (composeSegment(a)) break;
