@@ -7,6 +7,7 @@
 #include <set>
 
 #include "renderer/plan/stages.h"
+#include "scene/names.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/gl/scenes.h"
 
@@ -32,6 +33,18 @@ std::vector<Features> coveringSet() {
                 scene.space = (turn / 4) % 2 == 0 ? CompositingSpace::Display : CompositingSpace::Linear;
                 scene.quality.earlyTermination = (turn / 8 + half) % 2 == 0 ? 0.0 : 0.01;
                 scene.xray = half == 0 ? XRayDisplay::Opacity : XRayDisplay::Transmittance;
+                all.push_back(featuresOf(scene));
+            }
+    for (const Mode mode : {Mode::Composite, Mode::XRay})
+        for (const auto& integrator : enumNames<Integrator>())
+            for (int half = 0; half < 2; ++half, ++turn) {
+                Scene scene = test::rampScene(mode);
+                scene.lights->resize(half == 0 ? 0u : 1u);
+                scene.xray = (turn / 2) % 2 == 0 ? XRayDisplay::Opacity : XRayDisplay::Transmittance;
+                scene.quality.integrator = integrator.value;
+                scene.quality.accumulation =
+                    enumNames<Accumulation>()[static_cast<std::size_t>(turn % 3)].value;
+                scene.quality.jitter = half == 0;
                 all.push_back(featuresOf(scene));
             }
     return all;

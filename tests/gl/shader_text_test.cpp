@@ -8,6 +8,7 @@
 #include <set>
 
 #include "renderer/plan/stages.h"
+#include "scene/names.h"
 #include "tests/gl/scenes.h"
 
 namespace pellucid::renderer {
@@ -15,6 +16,8 @@ namespace {
 
 using test::kAllFilters;
 using test::kAllModes;
+
+std::vector<Features> integratorFeatures();
 
 std::vector<Features> allFeatures() {
     std::vector<Features> all;
@@ -32,6 +35,24 @@ std::vector<Features> allFeatures() {
                             scene.quality.earlyTermination = bound;
                             all.push_back(featuresOf(scene));
                         }
+    const auto more = integratorFeatures();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+/// All integrators, formats and jitter with the other choices at their defaults.
+std::vector<Features> integratorFeatures() {
+    std::vector<Features> all;
+    for (const Mode mode : kAllModes)
+        for (const auto& integrator : enumNames<Integrator>())
+            for (const auto& accumulation : enumNames<Accumulation>())
+                for (const bool jitter : {false, true}) {
+                    Scene scene = test::rampScene(mode);
+                    scene.quality.integrator = integrator.value;
+                    scene.quality.accumulation = accumulation.value;
+                    scene.quality.jitter = jitter;
+                    all.push_back(featuresOf(scene));
+                }
     return all;
 }
 

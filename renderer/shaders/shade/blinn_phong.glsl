@@ -1,4 +1,4 @@
-// Blinn-Phong reflection (Blinn 1977; Engel et al. 2006, section 5.4), two-sided.
+// Blinn-Phong reflection (Blinn 1977; Engel et al. 2006, section 5.4; equation 16 of docs/equations.md), two-sided.
 struct LightData {
     vec4 color;     // RGB * intensity
     vec4 place;     // w = 0: unit vector towards the light; w = 1: position, render coordinates
