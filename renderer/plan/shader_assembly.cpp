@@ -64,6 +64,9 @@ private:
             if (content.starts_with("//@when ")) {
                 keep = has(content.substr(8));
                 if (keep) mark(number + 1);
+            } else if (content.starts_with("//@unless ")) {
+                keep = !has(content.substr(10));
+                if (keep) mark(number + 1);
             } else if (content == "//@end") {
                 keep = true;
                 mark(number + 1);
