@@ -12,6 +12,7 @@
 #include "renderer/error_estimate.h"
 #include "renderer/gpu/gl_state_scope.h"
 #include "renderer/gpu/gpu_context.h"
+#include "renderer/gpu/loop_limit.h"
 #include "renderer/gpu/program_cache.h"
 #include "renderer/passes/raycast_pass.h"
 
@@ -69,9 +70,13 @@ struct Renderer::State {
     RaycastPass raycast;
     std::map<const GlProgram*, double> msPerSample;  // of the most expensive tile last drawn
 
+    double maxLoopTurns;
     bool preview = false;  // the last picture used a quickly made table
 
-    explicit State(GpuContext own) : context(std::move(own)), raycast(isSoftware(glText(GL_RENDERER))) {}
+    explicit State(GpuContext own)
+        : context(std::move(own)),
+          raycast(isSoftware(glText(GL_RENDERER))),
+          maxLoopTurns(measuredLoopLimit()) {}
     ~State() { context.makeCurrent(); }
 
     Result<const GlProgram*> program(const Plan& plan);
@@ -80,7 +85,7 @@ struct Renderer::State {
     Result<ImageF> drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
                             const RenderOptions& options, FrameCost& cost);
     DeviceLimits limits() const {
-        return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes};
+        return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes, maxLoopTurns};
     }
 };
 
@@ -129,7 +134,7 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, c
     auto texture = store.volume(volume, item.component, options.progress);
     if (!texture) return tl::unexpected(texture.error());
     const FrameTables tables = tablesFor(scene, plan, factsOf(*volume, item.component), options);
-    const Uniforms uniforms = raycastUniforms(scene, plan, volume->grid(), **texture, tables);
+    const Uniforms uniforms = raycastUniforms(scene, plan, volume->grid(), **texture, tables, maxLoopTurns);
     auto target = store.target(targetSize(scene.picture.size));
     if (!target) return tl::unexpected(target.error());
     RaycastInputs inputs;
@@ -231,6 +236,7 @@ Renderer::DeviceInfo Renderer::deviceInfo() const {
     info.max3dTextureSize = glInteger(GL_MAX_3D_TEXTURE_SIZE);
     info.maxUniformBlockBytes = glInteger(GL_MAX_UNIFORM_BLOCK_SIZE);
     info.maxTextureSize = glInteger(GL_MAX_TEXTURE_SIZE);
+    info.maxLoopTurns = m_state->maxLoopTurns;
     return info;
 }
 

@@ -62,6 +62,7 @@ public:
         int max3dTextureSize = 0;
         int maxUniformBlockBytes = 0;
         int maxTextureSize = 0;
+        double maxLoopTurns = 0.0;  ///< DeviceLimits::maxLoopTurns.
     };
     [[nodiscard]] DeviceInfo deviceInfo() const;
 

@@ -89,18 +89,21 @@ void addTables(Uniforms& uniforms, const Plan& plan, const VolumeTexture& volume
 }
 
 /// The step, and for the adaptive integrator the step it starts from and never exceeds.
-void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan) {
+void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan, double maxLoopTurns) {
     constexpr double kShortest = 1.0 / 64.0;  // of a step; what is left there is a jump that no step resolves
     constexpr double kSafety = 0.5;           // estimates are not bounds
     const bool adaptive = plan.features.integrator == Integrator::Adaptive;
     uniforms.emplace_back("stepMm", static_cast<float>(plan.stepMm));
     if (!adaptive) return;
-    uniforms.emplace_back("shortestStepMm", static_cast<float>(kShortest * plan.stepMm));
+    // Four turns for each of the shortest segments (some are refused before they are short) must fit into
+    // what the driver gives.
+    const double longestRay = plan.samplesPerRay * plan.stepMm;
+    const double shortest = std::max(kShortest * plan.stepMm, 4.0 * longestRay / maxLoopTurns);
+    uniforms.emplace_back("shortestStepMm", static_cast<float>(shortest));
     uniforms.emplace_back(
         "tolerance", static_cast<float>(scene.quality.toleranceGreyLevels.value_or(1.0) / 255.0 * kSafety));
-    // Every segment may be refused a few times before it is short enough; no ray ends here.
     uniforms.emplace_back("mostSegments",
-                          static_cast<int>(std::min(4.0 * plan.samplesPerRay / kShortest + 64.0, 1e9)));
+                          static_cast<int>(std::min(4.0 * longestRay / shortest + 64.0, maxLoopTurns)));
 }
 
 /// The most light a point can send relative to its colour: what is hidden behind transmittance T changes the
@@ -117,13 +120,13 @@ double brightestReflection(const Scene& scene) {
 }  // namespace
 
 Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid, const VolumeTexture& volume,
-                         const FrameTables& tables) {
+                         const FrameTables& tables, double maxLoopTurns) {
     Uniforms uniforms;
     const auto& item = scene.volumes.front();
     uniforms.emplace_back("pictureSize", glm::vec2(scene.picture.size));
     addRay(uniforms, rayFrame(scene.camera, grid, scene.picture.size), grid);
     addGeometry(uniforms, grid, volume.texelExtent);
-    addAdaptive(uniforms, scene, plan);
+    addAdaptive(uniforms, scene, plan, maxLoopTurns);
     glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
     const bool linear = plan.features.space == CompositingSpace::Linear;
     if (linear)

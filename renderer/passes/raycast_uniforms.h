@@ -34,7 +34,8 @@ struct FrameTables {
 /// are set. `table` is null in modes without a transfer function. Everything is computed in double relative
 /// to the volume's centre.
 [[nodiscard]] Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
-                                       const VolumeTexture& volume, const FrameTables& tables);
+                                       const VolumeTexture& volume, const FrameTables& tables,
+                                       double maxLoopTurns);
 
 /// The std140 block of shade/blinn_phong.glsl: colour * intensity, then direction to the light (w 0) or
 /// position (w 1), render coordinates.

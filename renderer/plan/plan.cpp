@@ -42,6 +42,35 @@ Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
     return {};
 }
 
+bool has(const Plan& plan, std::string_view stage, std::string_view variant) {
+    return std::any_of(plan.stages.begin(), plan.stages.end(),
+                       [&](const StageRow& row) { return row.stage == stage && row.variant == variant; });
+}
+
+/// Turns of the loops that a ray of so many samples takes at most.
+double loopTurns(const Plan& plan, double samples) {
+    if (plan.features.lit && has(plan, "compose", "over"))
+        return 2.0 * samples;  // one to find a sample, one to light it
+    if (has(plan, "traverse", "midpoints_by_four")) return samples / 4.0 + 4.0;
+    return samples + 2.0;
+}
+
+Result<void> checkSamples(const Plan& plan, const DeviceLimits& limits) {
+    const double samples = plan.samplesPerRay;
+    if (!(samples <= kMaxSamplesPerRay))
+        return fail(ErrorCode::InvalidArgument,
+                    fmt::format("/quality: a step of {:g} mm makes {:.3g} samples on the longest ray; at "
+                                "most {:.0f} are allowed",
+                                plan.stepMm, samples, kMaxSamplesPerRay));
+    if (loopTurns(plan, samples) > limits.maxLoopTurns)
+        return fail(ErrorCode::InvalidArgument,
+                    fmt::format("/quality: a step of {:g} mm makes {:.0f} samples on the longest ray; this "
+                                "OpenGL driver ends loops after {:.0f} "
+                                "turns, take a longer step",
+                                plan.stepMm, samples, limits.maxLoopTurns));
+    return {};
+}
+
 void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
     const TableLayout layout = layoutFor(scene, plan, facts);
     plan.tableSize = layout.size;
@@ -69,11 +98,6 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
                                   static_cast<std::uint64_t>(size) * 16,
                                   fmt::format("running integrals at {} values", size)});
     }
-}
-
-bool has(const Plan& plan, std::string_view stage, std::string_view variant) {
-    return std::any_of(plan.stages.begin(), plan.stages.end(),
-                       [&](const StageRow& row) { return row.stage == stage && row.variant == variant; });
 }
 
 }  // namespace
@@ -113,15 +137,10 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     plan.stepMm = stepMm(scene.quality, facts.grid);
     plan.samplesPerRay =
         scene.mode == Mode::Slice ? 1.0 : std::ceil(2.0 * radiusMm(facts.grid) / plan.stepMm);
-    if (!(plan.samplesPerRay <= kMaxSamplesPerRay))
-        return fail(ErrorCode::InvalidArgument,
-                    fmt::format("/quality: a step of {:g} mm makes {:.3g} samples on the longest ray; at "
-                                "most {:.0f} are allowed",
-                                plan.stepMm, plan.samplesPerRay, kMaxSamplesPerRay));
-
     auto choice = chooseStages(plan.features);
     plan.stages = std::move(choice.rows);
     plan.leftOut = std::move(choice.leftOut);
+    if (auto fine = checkSamples(plan, limits); !fine) return tl::unexpected(fine.error());
     if (plan.features.earlyTermination) plan.earlyTerminationBound = scene.quality.earlyTermination;
 
     const auto target = targetSize(scene.picture.size);

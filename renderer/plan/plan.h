@@ -74,6 +74,9 @@ struct Plan {
 struct DeviceLimits {
     int max3dTextureSize = 2048;
     std::uint64_t maxTextureBytes = 16ull << 30;
+    /// Turns of all loops of one pixel after which the driver ends them, right or wrong (llvmpipe: 65535).
+    /// Measured.
+    double maxLoopTurns = 1e9;
 };
 [[nodiscard]] Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
                                     const DeviceLimits& limits = {});

@@ -38,13 +38,13 @@ void traverse(float tEnter, float tExit) {
         float beyond = 4.0 * abs(uMiddle - 0.5 * (uFront + uBack));
         vec4 unseen = max(abs(meanOptics(lowest - beyond, lowest) - meanOptics(lowest, lowest)),
                           abs(meanOptics(highest, highest + beyond) - meanOptics(highest, highest)));
-        float missed = 1.0 * lengthMm * max(max(unseen.r, unseen.g), max(unseen.b, unseen.a));
+        float missed = lengthMm * max(max(unseen.r, unseen.g), max(unseen.b, unseen.a));
         float seen = max(max(apart.r, max(apart.g, apart.b)), abs(exp(-whole.a) - throughBoth));
         float error = visible * max(seen, min(missed, 1.0));
         float allowed = tolerance * lengthMm / extent;
         if (error <= allowed || lengthMm <= shortestStepMm) {
-            if (composeSegment(a)) break;
-            if (composeSegment(b)) break;
+            if (composeSegment(a)) return;
+            if (composeSegment(b)) return;
             visible *= throughBoth;
             at = last ? extent : at + lengthMm;
             front = back;
@@ -52,5 +52,10 @@ void traverse(float tEnter, float tExit) {
         }
         float change = 0.9 * pow(allowed / max(error, 1e-12), 1.0 / 3.0);
         lengthMm = clamp(lengthMm * clamp(change, 0.2, 3.0), shortestStepMm, stepMm);
+    }
+    // Turns used up: the rest is one segment rather than nothing.
+    if (at < extent) {
+        vec3 back = start + extent * ray.texDirection;
+        composeSegment(segmentOptics(uFront, reconstruct(back), front, back, tEnter + 0.5 * (at + extent), extent - at));
     }
 }
