@@ -9,22 +9,33 @@ namespace pellucid::renderer {
 
 namespace {
 
-constexpr int kReduction = 4;
 // Pictures this small are probed whole.
 constexpr int kSmallestProbe = 64;
 
 /// The scene with fewer pixels over the same view.
-Scene reduced(const Scene& scene) {
+Scene reduced(const Scene& scene, int reduction) {
     Scene probe = scene;
     for (int axis = 0; axis < 2; ++axis)
-        probe.picture.size[axis] = std::max(scene.picture.size[axis] / kReduction,
+        probe.picture.size[axis] = std::max(scene.picture.size[axis] / reduction,
                                             std::min(scene.picture.size[axis], kSmallestProbe));
     return probe;
 }
 
+/// The scene with a quarter of the step and nothing else that is known to be inexact.
+Scene comparison(const Scene& scene, const Plan& plan) {
+    Scene better = scene;
+    better.quality.stepMm = 0.25 * plan.stepMm;
+    better.quality.earlyTermination = 0.0;
+    better.quality.accumulation = Accumulation::Float32;
+    better.quality.jitter = false;
+    better.quality.toleranceGreyLevels = 0.125 * scene.quality.toleranceGreyLevels.value_or(1.0);
+    return better;
+}
+
 }  // namespace
 
-Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const DrawScene& draw) {
+Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const ImageF* picture,
+                                    int reduction, const DrawScene& draw) {
     ErrorEstimate estimate;
     estimate.terminationBound = plan.earlyTerminationBound;
     estimate.tableBound = plan.tableWorstError;
@@ -32,28 +43,31 @@ Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const 
         estimate.method = "a slice takes one sample a pixel and has no step";
         return estimate;
     }
-    Scene coarse = reduced(scene);
-    coarse.quality.stepMm = plan.stepMm;
-    Scene fine = coarse;
-    fine.quality.stepMm = 0.5 * plan.stepMm;
-    const auto a = draw(coarse);
-    if (!a) return tl::unexpected(a.error());
-    const auto b = draw(fine);
-    if (!b) return tl::unexpected(b.error());
-    constexpr double kFirstOrder = 2.0;  // 2^1 / (2^1 - 1)
+    Scene probe = picture != nullptr ? scene : reduced(scene, reduction);
+    probe.quality.stepMm = plan.stepMm;
+    ImageF drawn;
+    if (picture == nullptr) {
+        auto coarse = draw(probe);
+        if (!coarse) return tl::unexpected(coarse.error());
+        drawn = std::move(*coarse);
+        picture = &drawn;
+    }
+    const auto better = draw(comparison(probe, plan));
+    if (!better) return tl::unexpected(better.error());
+    constexpr double kErrorPerDifference = 1.15;
     double sum = 0.0;
-    for (std::size_t i = 0; i < a->pixels.size(); ++i) {
+    for (std::size_t i = 0; i < better->pixels.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel) {
-            const double error = kFirstOrder * std::abs(static_cast<double>(a->pixels[i][channel]) -
-                                                        static_cast<double>(b->pixels[i][channel]));
-            estimate.maxError = std::max(estimate.maxError, error);
-            sum += error * error;
+            const double apart = std::abs(static_cast<double>(picture->pixels[i][channel]) -
+                                          static_cast<double>(better->pixels[i][channel]));
+            estimate.maxError = std::max(estimate.maxError, kErrorPerDifference * apart);
+            sum += kErrorPerDifference * apart * kErrorPerDifference * apart;
         }
     }
-    estimate.rmse = std::sqrt(sum / (3.0 * static_cast<double>(a->pixels.size())));
-    estimate.probedPixels = static_cast<int>(a->pixels.size());
-    estimate.method = fmt::format("step halved on {} x {} pixels, first order assumed", coarse.picture.size.x,
-                                  coarse.picture.size.y);
+    estimate.rmse = std::sqrt(sum / (3.0 * static_cast<double>(better->pixels.size())));
+    estimate.probedPixels = static_cast<int>(better->pixels.size());
+    estimate.method = fmt::format("compared with a quarter of the step on {} x {} pixels",
+                                  probe.picture.size.x, probe.picture.size.y);
     return estimate;
 }
 

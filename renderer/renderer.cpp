@@ -209,7 +209,8 @@ Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>&
             FrameCost unwatched;
             return m_state->drawOnce(probe, *probePlan, volumes.front(), options, unwatched);
         };
-        auto estimate = estimateError(full, *plan, draw);
+        auto estimate = estimateError(full, *plan, options.estimateReduction > 1 ? nullptr : &frame.image,
+                                      options.estimateReduction, draw);
         if (!estimate) return tl::unexpected(estimate.error());
         frame.error = std::move(*estimate);
     }

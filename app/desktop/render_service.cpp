@@ -93,6 +93,7 @@ void RenderService::draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, c
     const Request& request = job->request;
     renderer::RenderOptions options;
     options.estimateError = request.estimateError;
+    options.estimateReduction = 4;
     options.progress = [this, &stop, priority = request.priority](double fraction, std::string_view) {
         return report(stop, priority, fraction);
     };
