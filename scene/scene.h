@@ -80,9 +80,8 @@ struct Quality {
     Integrator integrator = Integrator::Exponential;
     Accumulation accumulation = Accumulation::Float32;
     bool jitter = false;  ///< Ray starts are shifted within a step by blue noise, the same in every picture.
-    /// Largest error asked for, in grey levels (1/255 of what is shown), > 0. With the adaptive integrator
-    /// its own tolerance (1 when unset); with any other the renderer picks integrator and step that meet it
-    /// most cheaply.
+    /// Largest error the adaptive integrator steps for, in grey levels (1/255 of what is shown), > 0; 1 when
+    /// unset.
     std::optional<double> toleranceGreyLevels;
     bool dither = false;
     bool operator==(const Quality&) const = default;
