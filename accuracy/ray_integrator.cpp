@@ -65,7 +65,9 @@ RayIntegrator::RayIntegrator(const Scene& scene, const Volume& volume)
         for (int channel = 0; channel < 3; ++channel)
             m_background[channel] = linearFromDisplay(m_background[channel]);
     const ValueRange range = volume.physicalRange(scene.volumes.front().component);
-    m_vanishingGradient = 1e-6 * (range.hi - range.lo);
+    // The second term: rounding of a filter's weights on a constant field.
+    m_vanishingGradient =
+        1e-6 * (range.hi - range.lo) + 1e-14 * std::max(std::abs(range.lo), std::abs(range.hi));
 }
 
 RayIntegrator::Ray RayIntegrator::rayAt(double u, double v) const {

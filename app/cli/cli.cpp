@@ -20,7 +20,8 @@ constexpr const char* kFooter =
     "  pellucid --sample\n"
     "  pellucid render ct-head/ -o head.png --size 1024x768 --view left\n"
     "  pellucid info brain.nii.gz\n\n"
-    "Exit status: 0 done; 1 pictures differ beyond the limits (compare); 2 input or usage refused; 3 "
+    "Exit status: 0 done; 1 pictures differ beyond the limits or a self-test fails (compare, verify); 2 "
+    "input or usage refused; 3 "
     "graphics driver or\n"
     "internal failure; 130 stopped by Ctrl-C. Pellucid is not a medical device.";
 
@@ -40,8 +41,8 @@ int runCli(int argc, const char* const* argv, const OpenDesktop& openDesktop) {
 
     const Command open = addOpenCommand(program, openDesktop);
     const std::vector<Command> commands = {addRenderCommand(program), addInfoCommand(program),
-                                           addPlanCommand(program), addCompareCommand(program),
-                                           addDoctorCommand(program)};
+                                           addPlanCommand(program),   addCompareCommand(program),
+                                           addDoctorCommand(program), addVerifyCommand(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

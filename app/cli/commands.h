@@ -23,5 +23,6 @@ Command addInfoCommand(CLI::App& program);
 Command addPlanCommand(CLI::App& program);
 Command addCompareCommand(CLI::App& program);
 Command addDoctorCommand(CLI::App& program);
+Command addVerifyCommand(CLI::App& program);
 
 }  // namespace pellucid::app

@@ -58,8 +58,11 @@ void addGeometry(Uniforms& uniforms, const Grid& grid, double texelExtent) {
 /// line over u: i * scale + offset.
 glm::vec2 entryFromTexel(const VolumeTexture& volume, double lo, double hi, int size, double scale,
                          double offset) {
-    const double perPhysical = hi > lo ? (size - 1.0) / (hi - lo) * scale : 0.0;
-    return {volume.physicalPerTexel() * perPhysical, (volume.physicalAtZero() - lo) * perPhysical + offset};
+    // Divided first: over denormal values (size - 1) / (hi - lo) would be infinite.
+    if (!(hi > lo)) return {0.0, offset};
+    const double entries = (size - 1.0) * scale;
+    return {volume.physicalPerTexel() / (hi - lo) * entries,
+            (volume.physicalAtZero() - lo) / (hi - lo) * entries + offset};
 }
 
 /// Entry i stands at texture coordinate (i + 0.5) / size.

@@ -62,6 +62,10 @@ TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, d
     TableLayout layout;
     layout.lo = std::max(values.lo, function.points.front().value);
     layout.hi = std::min(values.hi, function.points.back().value);
+    // A function that jumps at its first point is another below it: the table must reach there.
+    if (const auto& points = function.points;
+        points.size() > 1 && points[0].value == points[1].value && values.lo < layout.lo)
+        layout.lo = values.lo;
     if (!(layout.hi > layout.lo)) {
         // Nothing varies within reach: all values lie at, before or behind one point.
         const double value =

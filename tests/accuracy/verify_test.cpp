@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "accuracy/verify.h"
+
+#include <array>
+#include <cmath>
+
+#include "tests/accuracy/gpu_fixture.h"
+
+namespace pellucid::test {
+namespace {
+
+TEST(ObservedOrder, IsTheSlopeOfThePowerLaw) {
+    const std::array sizes{2.0, 1.0, 0.5, 0.3};
+    for (const double order : {0.5, 1.0, 2.0, 4.0}) {
+        std::vector<double> errors;
+        for (const double size : sizes) errors.push_back(3e-4 * std::pow(size, order));
+        EXPECT_NEAR(accuracy::observedOrder(sizes, errors), order, 1e-12);
+    }
+}
+
+TEST(ObservedOrder, IsNoNumberWithoutAnError) {
+    EXPECT_TRUE(std::isnan(accuracy::observedOrder(std::array{2.0, 1.0, 0.5}, std::array{1e-3, 0.0, 0.0})));
+}
+
+TEST(OrderRow, PassesWithinItsToleranceOnly) {
+    accuracy::OrderRow row;
+    row.expected = 2.0;
+    row.tolerance = 0.15;
+    row.sizes = {1.0, 0.5};
+    row.errors = {4e-3, 1e-3};
+    EXPECT_TRUE(row.passed());
+    row.errors = {4e-3, 2e-3};
+    EXPECT_FALSE(row.passed()) << "first order";
+    row.errors = {4e-3, 1e-4};
+    EXPECT_FALSE(row.passed()) << "better than theory is as suspect";
+    row.claim = accuracy::Claim::AtLeast;
+    EXPECT_TRUE(row.passed());
+    row.errors = {4e-3, 0.0};
+    EXPECT_FALSE(row.passed()) << "no order";
+    row.claim = accuracy::Claim::Independent;
+    EXPECT_TRUE(row.passed());
+    row.errors = {1e-3, std::nan("")};
+    EXPECT_FALSE(row.passed()) << "NaN";
+}
+
+class Verify : public GpuTest {};
+
+TEST_F(Verify, EveryObservedOrderIsAsTheorySays) {
+    const auto rows = accuracy::verifyOrders(gpu());
+    ASSERT_TRUE(rows);
+    EXPECT_GE(rows->size(), 160u);
+    EXPECT_TRUE(accuracy::allPassed(*rows)) << accuracy::orderText(*rows);
+}
+
+TEST_F(Verify, StopsWhenAsked) {
+    const auto rows = accuracy::verifyOrders(gpu(), [](double, std::string_view) { return false; });
+    ASSERT_FALSE(rows);
+    EXPECT_EQ(rows.error().code, ErrorCode::Cancelled);
+}
+
+}  // namespace
+}  // namespace pellucid::test
