@@ -12,8 +12,8 @@ namespace pellucid::renderer {
 
 /// How wrong a picture is, in units of what is shown (1 = full range; 1/255 = one grey level).
 struct ErrorEstimate {
-    double maxError = 0.0;          ///< Largest over the probed pixels, from halving the step (Richardson).
-    double rmse = 0.0;              ///< Over the probed pixels and RGB.
+    double maxError = 0.0;  ///< Largest over the probed pixels, by comparison with a quarter of the step.
+    double rmse = 0.0;      ///< Over the probed pixels and RGB.
     double terminationBound = 0.0;  ///< What early ray termination may add at most.
     double tableBound = 0.0;        ///< What the transfer table may add at most for one sample's colour.
     int probedPixels = 0;

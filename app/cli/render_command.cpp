@@ -50,7 +50,7 @@ Command addRenderCommand(CLI::App& program) {
                       "Leave out the error estimate, which costs about a fifth");
     command->footer(
         "Prints the picture's size, the time to draw it, and how wrong it is: the difference to the picture "
-        "of half the\n"
+        "of a quarter of the\n"
         "step, in grey levels (1/255). The same scene gives the same bytes on the same machine.\n\n"
         "Examples:\n"
         "  pellucid render ct-head/ -o head.png\n"
