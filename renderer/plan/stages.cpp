@@ -54,7 +54,7 @@ std::span<const StageVariant> stageTable() {
         {"accumulate", "half", {}, {}, {}},
         {"accumulate", "unorm8", {}, {}, {}},
         {"terminate", "transmittance", {"terminationTransmittance"}, {}, {}},
-        {"compose", "over", {}, {}, {"integrate", "accumulate"}},
+        {"compose", "over", {}, {}, {"reconstruct", "integrate", "accumulate"}},
         {"compose", "over_segments", {}, {}, {"integrate", "accumulate"}},
         {"compose", "mip", {}, {}, {"classify"}},
         {"compose", "minip", {}, {}, {"classify"}},

@@ -13,26 +13,11 @@ void traverse(float tEnter, float tExit) {
     tEnter += first;
     extent -= first;
     //@end
-    int count = max(int(ceil(extent / stepMm)), 1);
     //@when shade
-    // A lit sample costs seven or more fetches, a transparent one need not be lit: an inner loop passes over those, so that
-    // rays drawn side by side meet at their visible samples and no branch has to be skipped (software rasterisers skip none). The condition stands first:
-    // Mesa 22.3 compiles the same as do ... while wrongly (lanes that are done go on).
-    int next = 0;
-    while (next < count) {
-        vec4 optical = vec4(0.0);
-        float middle = 0.0;
-        while (optical.a <= 0.0 && next < count) {
-            float from = float(next) * stepMm;
-            float lengthMm = max(min(stepMm, extent - from), 0.0);
-            middle = from + 0.5 * lengthMm;
-            optical = sampleOptics(reconstruct(start + middle * ray.texDirection), lengthMm);
-            ++next;
-        }
-        if (composeOptics(optical, start + middle * ray.texDirection, tEnter + middle)) break;
-    }
+    composeLit(start, tEnter, extent, stepMm);
     //@end
     //@unless shade
+    int count = max(int(ceil(extent / stepMm)), 1);
     vec3 advance = stepMm * ray.texDirection;
     int i = 0;
     for (int whole = (count - 1) & ~3; i < whole; i += 4) {
