@@ -38,7 +38,7 @@ Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const 
                                     int reduction, const DrawScene& draw) {
     ErrorEstimate estimate;
     estimate.terminationBound = plan.earlyTerminationBound;
-    estimate.tableBound = plan.tableWorstError;
+    estimate.tableBound = plan.table.worstError;
     if (scene.mode == Mode::Slice) {
         estimate.method = "a slice takes one sample a pixel and has no step";
         return estimate;

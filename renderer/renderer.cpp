@@ -114,13 +114,12 @@ FrameTables Renderer::State::tablesFor(const Scene& scene, const Plan& plan, con
         }
         case Integrator::IntegralFunctions:
         case Integrator::Adaptive:
-            tables.integrals = &store.integrals(function, space, layoutFor(scene, plan, facts),
-                                                integralTableSize(facts.type));
+            tables.integrals = &store.integrals(function, space, plan.table, integralTableSize(facts.type));
             break;
         default:
             break;
     }
-    tables.transfer = &store.table(function, space, layoutFor(scene, plan, facts));
+    tables.transfer = &store.table(function, space, plan.table);
     return tables;
 }
 

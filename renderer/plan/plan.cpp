@@ -71,14 +71,25 @@ Result<void> checkSamples(const Plan& plan, const DeviceLimits& limits) {
     return {};
 }
 
+TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
+    const auto& item = scene.volumes.front();
+    PELLUCID_CHECK(item.transferFunction.has_value() && scene.unitLengthMm.has_value());
+    const double stepInUnits = plan.stepMm / *scene.unitLengthMm * scene.densityScale;
+    return layoutTable(inCompositingSpace(*item.transferFunction, plan.features.space),
+                       reachableValues(facts.physicalRange, item.filter), stepInUnits);
+}
+
 void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
-    const TableLayout layout = layoutFor(scene, plan, facts);
-    plan.tableSize = layout.size;
-    plan.tableWorstError = layout.worstError;
+    plan.table = layoutFor(scene, plan, facts);
+    if (!has(plan, "classify", "tf1d")) {
+        plan.table.size = 0;
+        plan.table.worstError = 0.0;
+        return;
+    }
     plan.resources.push_back(
-        {"transfer table", "texture 1D RGBA32F", static_cast<std::uint64_t>(layout.size) * 16,
+        {"transfer table", "texture 1D RGBA32F", static_cast<std::uint64_t>(plan.table.size) * 16,
          fmt::format("{} entries over {:g} ... {:g}; largest difference from the function {:.2g}",
-                     layout.size, layout.lo, layout.hi, layout.worstError)});
+                     plan.table.size, plan.table.lo, plan.table.hi, plan.table.worstError)});
 }
 
 void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
@@ -101,14 +112,6 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
 }
 
 }  // namespace
-
-TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
-    const auto& item = scene.volumes.front();
-    PELLUCID_CHECK(item.transferFunction.has_value() && scene.unitLengthMm.has_value());
-    const double stepInUnits = plan.stepMm / *scene.unitLengthMm * scene.densityScale;
-    return layoutTable(inCompositingSpace(*item.transferFunction, plan.features.space),
-                       reachableValues(facts.physicalRange, item.filter), stepInUnits);
-}
 
 VolumeFacts factsOf(const Volume& volume, int component) {
     return {volume.grid(), volume.type(), volume.physicalRange(component)};
@@ -151,7 +154,7 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
                               textureBytes(facts),
                               fmt::format("{} x {} x {} voxels of {}", facts.grid.size.x, facts.grid.size.y,
                                           facts.grid.size.z, name(facts.type))});
-    if (has(plan, "classify", "tf1d")) addTransferTable(plan, scene, facts);
+    if (usesTransferFunction(scene.mode)) addTransferTable(plan, scene, facts);
     addPreintegration(plan, scene, facts);
     if (plan.features.jitter)
         plan.resources.push_back(

@@ -51,6 +51,18 @@ struct LeftOutRow {
     bool operator==(const LeftOutRow&) const = default;
 };
 
+/// Where a transfer function is tabulated: `size` entries at lo ... hi (physical values), both ends included.
+/// Outside it is constant, as the table's clamped ends are.
+struct TableLayout {
+    double lo = 0.0;
+    double hi = 1.0;
+    int size = 0;
+    double worstError =
+        0.0;  ///< Largest difference between the table, linearly interpolated, and the function: opacity or
+              ///< associated colour of one step. Exact: it occurs at a control point.
+    bool operator==(const TableLayout&) const = default;
+};
+
 /// What drawing a scene needs, and nothing else: what is not listed is neither compiled, allocated, computed
 /// nor bound. Made without a GPU.
 struct Plan {
@@ -59,9 +71,9 @@ struct Plan {
     std::vector<PassRow> passes;
     std::vector<ResourceRow> resources;
     std::vector<LeftOutRow> leftOut;
-    int tableSize = 0;  ///< Entries of the transfer table, 0 without one.
-    double tableWorstError =
-        0.0;  ///< Largest difference of table and function: colour channel or opacity of one step.
+    /// Of the transfer table; size 0 without one. Where the function is pre-integrated, lo and hi are the
+    /// values it is needed for.
+    TableLayout table;
     double stepMm = 0.0;
     double samplesPerRay = 0.0;          ///< Upper bound: volume diagonal / step.
     double earlyTerminationBound = 0.0;  ///< Error bound in display units; 0 when rays never stop early.

@@ -60,7 +60,7 @@ nlohmann::ordered_json planJson(const Plan& plan) {
     json["stepMm"] = plan.stepMm;
     json["samplesPerRay"] = plan.samplesPerRay;
     json["earlyTerminationBound"] = plan.earlyTerminationBound;
-    json["tableWorstError"] = plan.tableWorstError;
+    json["tableWorstError"] = plan.table.worstError;
     json["totalBytes"] = plan.totalBytes;
     return json;
 }

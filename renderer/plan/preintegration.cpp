@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/plan/transfer_table.h"
 #include "scene/parallel.h"
 
 namespace pellucid::renderer {
@@ -128,8 +127,7 @@ RunningIntegrals::Value RunningIntegrals::at(double value) const {
 }
 
 PreintegrationLayout layoutPreintegration(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
-    const TableLayout domain = layoutFor(scene, plan, facts);
-    PreintegrationLayout layout{domain.lo, domain.hi, is8Bit(facts.type) ? 256 : 512, 1,
+    PreintegrationLayout layout{plan.table.lo, plan.table.hi, is8Bit(facts.type) ? 256 : 512, 1,
                                 plan.stepMm / *scene.unitLengthMm * scene.densityScale};
     if (plan.features.integrator == Integrator::Preintegrated3D) {
         layout.size = 256;

@@ -10,24 +10,10 @@
 
 namespace pellucid::renderer {
 
-/// Where a transfer function is tabulated: `size` entries at lo ... hi (physical values), both ends included.
-/// Outside it is constant, as the table's clamped ends are.
-struct TableLayout {
-    double lo = 0.0;
-    double hi = 1.0;
-    int size = 2;
-    double worstError =
-        0.0;  ///< Largest difference between the table, linearly interpolated, and the function: opacity or
-              ///< associated colour of one step. Exact: it occurs at a control point.
-};
-
 /// The smallest table whose worst error is below 1/4096 (a sixteenth of a grey level), at most 16384 entries;
 /// among those too coarse, the best. `values` is the physical range the filter can produce.
 [[nodiscard]] TableLayout layoutTable(const TransferFunction1D& function, ValueRange values,
                                       double stepInUnits);
-
-/// The same for a completed() scene with one volume.
-[[nodiscard]] TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts);
 
 /// The function with control-point colours decoded to light-linear when that is the compositing space.
 [[nodiscard]] TransferFunction1D inCompositingSpace(const TransferFunction1D& function,

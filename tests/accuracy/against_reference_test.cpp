@@ -93,10 +93,10 @@ TEST_F(GpuAgainstReference, SameSamplesBackToFrontInDouble) {
                 for (int y = 0; y < 32; ++y)
                     for (int x = 0; x < 32; ++x)
                         expected.at(x, y) = glm::vec4(backToFront(scene, *volume, field, x, y));
-                const double bound = 5e-5 + 2.0 * frame.plan.tableWorstError + filterError();
+                const double bound = 5e-5 + 2.0 * frame.plan.table.worstError + filterError();
                 EXPECT_LE(shareBeyond(frame.image, expected, bound), filter == Filter::Nearest ? 0.01 : 0.0)
                     << name(filter) << " perspective " << perspective << " table "
-                    << frame.plan.tableWorstError << " worst " << largestDifference(frame.image, expected);
+                    << frame.plan.table.worstError << " worst " << largestDifference(frame.image, expected);
             }
         }
     }

@@ -153,7 +153,7 @@ TEST_F(ClosedForm, BallOfConstantExtinction) {
         scene.volumes.front().filter = Filter::CatmullRom;
         scene.quality.stepMm = radius / part;
         const renderer::Frame frame = frameOf(scene, volume);
-        const double entry = 300.0 / (frame.plan.tableSize - 1) + filterError() * 768.0;
+        const double entry = 300.0 / (frame.plan.table.size - 1) + filterError() * 768.0;
         for (int y = 0; y < 31; ++y)
             for (int x = 0; x < 31; ++x) {
                 const double b2 =

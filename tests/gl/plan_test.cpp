@@ -57,7 +57,7 @@ TEST(Plan, BytesAreThoseOfTheVolumeAndThePicture) {
     const Plan plan = planOf(rampScene());
     EXPECT_EQ(plan.resources[0].bytes, 512ull * 512 * 300 * 2);  // int16 as R16
     EXPECT_EQ(plan.passes[0].bytes, 48ull * 40 * 16);            // RGBA32F
-    EXPECT_EQ(plan.resources[1].bytes, static_cast<std::uint64_t>(plan.tableSize) * 16);
+    EXPECT_EQ(plan.resources[1].bytes, static_cast<std::uint64_t>(plan.table.size) * 16);
     VolumeFacts floats = kFacts;
     floats.type = VoxelType::Float64;
     EXPECT_EQ(planOf(rampScene(), floats).resources[0].bytes, 512ull * 512 * 300 * 4);
@@ -84,7 +84,7 @@ TEST(Plan, WhatCannotMatterIsDropped) {
     EXPECT_EQ(features.lights, 0);
     EXPECT_EQ(features.space, CompositingSpace::Display);
     EXPECT_FALSE(features.earlyTermination);
-    EXPECT_EQ(planOf(scene).tableSize, 0);
+    EXPECT_EQ(planOf(scene).table.size, 0);
 }
 
 TEST(Plan, RefusalsSayWhatAndHowMuch) {
