@@ -42,7 +42,8 @@ int runCli(int argc, const char* const* argv, const OpenDesktop& openDesktop) {
     const Command open = addOpenCommand(program, openDesktop);
     const std::vector<Command> commands = {addRenderCommand(program), addInfoCommand(program),
                                            addPlanCommand(program),   addCompareCommand(program),
-                                           addDoctorCommand(program), addVerifyCommand(program)};
+                                           addReportCommand(program), addDoctorCommand(program),
+                                           addVerifyCommand(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-/// The command line: `pellucid [PATH...]` opens the desktop; render, info, plan, compare and doctor do
-/// without one.
+/// The command line: `pellucid [PATH...]` opens the desktop; render, info, plan, compare, report and doctor
+/// do without one.
 namespace pellucid::app {
 
 inline constexpr int kExitOk = 0;

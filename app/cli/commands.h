@@ -22,6 +22,7 @@ Command addRenderCommand(CLI::App& program);
 Command addInfoCommand(CLI::App& program);
 Command addPlanCommand(CLI::App& program);
 Command addCompareCommand(CLI::App& program);
+Command addReportCommand(CLI::App& program);
 Command addDoctorCommand(CLI::App& program);
 Command addVerifyCommand(CLI::App& program);
 
