@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/reference.h"
+#include "accuracy/verification.h"
 
 namespace pellucid::accuracy {
 namespace {
@@ -95,7 +96,8 @@ ExtremeRow verifyExtreme(renderer::Renderer& renderer, const ExtremeCase& extrem
     return row;
 }
 
-Result<std::vector<ExtremeRow>> verifyExtremes(renderer::Renderer& renderer, const Progress& progress) {
+Result<std::vector<ExtremeRow>> verifyExtremes(renderer::Renderer& renderer, const Progress& progress,
+                                               const std::function<void(const ExtremeRow&)>& found) {
     const auto cases = extremeCases();
     std::vector<ExtremeRow> rows;
     for (const ExtremeCase& extreme : cases) {
@@ -103,8 +105,19 @@ Result<std::vector<ExtremeRow>> verifyExtremes(renderer::Renderer& renderer, con
                   extreme.name))
             return fail(ErrorCode::Cancelled, "the verification was cancelled");
         rows.push_back(verifyExtreme(renderer, extreme));
+        if (found) found(rows.back());
     }
     return rows;
+}
+
+VerificationLine lineOf(const ExtremeRow& row) {
+    const bool isRefusal = row.truth == "refused";
+    VerificationLine line{row.name, row.truth, std::isnan(row.error) ? "-" : fmt::format("{:.1e}", row.error),
+                          row.passed, row.why};
+    if (!isRefusal) line.theory += fmt::format(" within {:.1e}", row.bound);
+    if (isRefusal && row.passed) line.observed = "refused";
+    if (!row.outcome.empty()) line.reason = row.outcome + (row.why.empty() ? "" : "; ") + row.why;
+    return line;
 }
 
 bool allPassed(std::span<const ExtremeRow> rows) {

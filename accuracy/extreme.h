@@ -59,9 +59,11 @@ struct ExtremeRow {
 };
 
 /// Draws every case and measures its error; a number that is not finite fails. Some 60 s on two cores.
-/// Errors: Cancelled. That a case is refused, rightly or wrongly, is a row.
-[[nodiscard]] Result<std::vector<ExtremeRow>> verifyExtremes(renderer::Renderer& renderer,
-                                                             const Progress& progress = {});
+/// `found` is given each row once it is there. Errors: Cancelled. That a case is refused, rightly or wrongly,
+/// is a row.
+[[nodiscard]] Result<std::vector<ExtremeRow>> verifyExtremes(
+    renderer::Renderer& renderer, const Progress& progress = {},
+    const std::function<void(const ExtremeRow&)>& found = {});
 [[nodiscard]] ExtremeRow verifyExtreme(renderer::Renderer& renderer, const ExtremeCase& extreme);
 
 [[nodiscard]] bool allPassed(std::span<const ExtremeRow> rows);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "scene/check.h"
 
@@ -51,25 +50,6 @@ bool OrderRow::passed() const {
 
 bool allPassed(std::span<const OrderRow> rows) {
     return std::all_of(rows.begin(), rows.end(), [](const OrderRow& row) { return row.passed(); });
-}
-
-Result<std::vector<OrderRow>> verifyOrders(renderer::Renderer& renderer, const Progress& progress) {
-    using Part = Result<std::vector<OrderRow>> (*)(renderer::Renderer&, const Progress&);
-    struct Weighted {
-        Part part;
-        double from, to;  // Of the whole time, as measured.
-    };
-    std::vector<OrderRow> rows;
-    for (const auto& [part, from, to] :
-         {Weighted{verifyStepOrders, 0.0, 0.6}, Weighted{verifyGridOrders, 0.6, 0.9},
-          Weighted{verifyPixelOrders, 0.9, 1.0}}) {
-        auto some = part(renderer, [&, begin = from, end = to](double fraction, std::string_view what) {
-            return goOn(progress, begin + (end - begin) * fraction, what);
-        });
-        if (!some) return some;
-        std::move(some->begin(), some->end(), std::back_inserter(rows));
-    }
-    return rows;
 }
 
 }  // namespace pellucid::accuracy

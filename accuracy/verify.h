@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -43,22 +44,29 @@ struct OrderRow {
 /// error is not a positive finite number. Precondition: as many errors as sizes, at least two.
 [[nodiscard]] double observedOrder(std::span<const double> sizes, std::span<const double> errors);
 
+/// Given each row once it is there.
+using OrderFound = std::function<void(const OrderRow&)>;
+
 /// The convergence test of this renderer on this machine, after Etiene et al., "Verifying volume rendering
 /// using discretization error analysis", IEEE TVCG 20(1), 2014: every mode, integrator and filter under
-/// refinement of step, voxel grid and pixel. docs/verification.md derives the expected orders. Some 40 s on
-/// two cores. Errors: Gpu, Cancelled.
-[[nodiscard]] Result<std::vector<OrderRow>> verifyOrders(renderer::Renderer& renderer,
-                                                         const Progress& progress = {});
-
-/// The three parts of it, for whoever wants one; `progress` sees the whole range in each.
+/// refinement of step, voxel grid and pixel. docs/verification.md derives the expected orders. `progress`
+/// sees the whole range in each of the three parts (accuracy/verification.h runs them together). Errors:
+/// Gpu, Cancelled.
 [[nodiscard]] Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer,
-                                                             const Progress& progress = {});
+                                                             const Progress& progress = {},
+                                                             const OrderFound& found = {});
 [[nodiscard]] Result<std::vector<OrderRow>> verifyGridOrders(renderer::Renderer& renderer,
-                                                             const Progress& progress = {});
+                                                             const Progress& progress = {},
+                                                             const OrderFound& found = {});
 [[nodiscard]] Result<std::vector<OrderRow>> verifyPixelOrders(renderer::Renderer& renderer,
-                                                              const Progress& progress = {});
+                                                              const Progress& progress = {},
+                                                              const OrderFound& found = {});
 
 [[nodiscard]] bool allPassed(std::span<const OrderRow> rows);
+
+/// What a row is held to, "2 +- 0.15", and what was found, "1.98".
+[[nodiscard]] std::string expectedText(const OrderRow& row);
+[[nodiscard]] std::string observedText(const OrderRow& row);
 
 /// A table for people, one line a row, with the reasons below it; and the same with all figures.
 [[nodiscard]] std::string orderText(std::span<const OrderRow> rows);

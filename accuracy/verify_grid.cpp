@@ -162,7 +162,8 @@ OrderRow expectation(Mode mode, Filter filter) {
 
 }  // namespace
 
-Result<std::vector<OrderRow>> verifyGridOrders(renderer::Renderer& renderer, const Progress& progress) {
+Result<std::vector<OrderRow>> verifyGridOrders(renderer::Renderer& renderer, const Progress& progress,
+                                               const OrderFound& found) {
     std::vector<OrderRow> rows;
     double done = 0.0;
     const auto modes = enumNames<Mode>();
@@ -185,6 +186,7 @@ Result<std::vector<OrderRow>> verifyGridOrders(renderer::Renderer& renderer, con
                 row.sizes.push_back(kVerifyBoxMm.x / n);
                 row.errors.push_back(meanError(*image, exact));
             }
+            if (found) found(row);
             rows.push_back(std::move(row));
         }
     }

@@ -65,7 +65,8 @@ OrderRow expectation(Mode mode, Filter filter) {
 
 }  // namespace
 
-Result<std::vector<OrderRow>> verifyPixelOrders(renderer::Renderer& renderer, const Progress& progress) {
+Result<std::vector<OrderRow>> verifyPixelOrders(renderer::Renderer& renderer, const Progress& progress,
+                                                const OrderFound& found) {
     std::vector<OrderRow> rows;
     double done = 0.0;
     const auto modes = enumNames<Mode>();
@@ -93,6 +94,7 @@ Result<std::vector<OrderRow>> verifyPixelOrders(renderer::Renderer& renderer, co
                 row.sizes.push_back(kHeightMm / n);
                 row.errors.push_back(meanError(*coarse, halved(*fine)));
             }
+            if (found) found(row);
             rows.push_back(std::move(row));
         }
     }

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/verify.h"
+#include "accuracy/verification.h"
 
 namespace pellucid::accuracy {
 namespace {
@@ -24,6 +24,8 @@ const char* claimName(Claim claim) {
     return "independent";
 }
 
+}  // namespace
+
 std::string expectedText(const OrderRow& row) {
     if (row.claim == Claim::Independent) return fmt::format("<= {:.1e}", row.tolerance);
     return fmt::format("{}{:.0f} +- {:.2f}", row.claim == Claim::AtLeast ? ">= " : "", row.expected,
@@ -35,7 +37,14 @@ std::string observedText(const OrderRow& row) {
                                            : fmt::format("{:.2f}", row.observed());
 }
 
-}  // namespace
+VerificationLine lineOf(const OrderRow& row) {
+    VerificationLine line{fmt::format("{}: {}", row.refinement, row.mode), expectedText(row),
+                          observedText(row), row.passed(), row.reason};
+    for (const std::string& part : {row.integrator, row.filter})
+        if (!part.empty()) line.name += ", " + part;
+    line.theory = (row.claim == Claim::Independent ? "error " : "order ") + line.theory;
+    return line;
+}
 
 std::string orderText(std::span<const OrderRow> rows) {
     std::string text = fmt::format("{:<10} {:<10} {:<18} {:<16} {:>13} {:>9} {:>9}  {}\n", "refined", "mode",

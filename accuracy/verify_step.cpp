@@ -155,11 +155,13 @@ Result<OrderRow> fourthOrder(renderer::Renderer& renderer, Integrator integrator
 
 }  // namespace
 
-Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer, const Progress& progress) {
+Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer, const Progress& progress,
+                                               const OrderFound& found) {
     std::vector<OrderRow> rows;
     for (const Integrator integrator : {Integrator::Simpson, Integrator::GaussLegendre}) {
         auto row = fourthOrder(renderer, integrator);
         if (!row) return tl::unexpected<Error>(row.error());
+        if (found) found(*row);
         rows.push_back(std::move(*row));
     }
     const auto modes = enumNames<Mode>();
@@ -170,8 +172,7 @@ Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer, con
     for (const auto& mode : modes) {
         for (const Filter filter : kFilters) {
             const std::string what = fmt::format("step: {} {}", mode.name, name(filter));
-            if (!goOn(progress, done++ / all, what))
-                return fail(ErrorCode::Cancelled, "the verification was cancelled");
+            const double fraction = done++ / all;
             const VolumePtr volume = volumeFor(mode.value, filter);
             ReferenceOptions options;
             options.bound = 1e-8;
@@ -180,6 +181,8 @@ Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer, con
                 referencePicture(sceneFor({mode.value, Integrator::Exponential, filter}), {volume}, options);
             if (!exact) return tl::unexpected<Error>(exact.error());
             for (const auto& integrator : enumNames<Integrator>()) {
+                if (!goOn(progress, fraction, what))
+                    return fail(ErrorCode::Cancelled, "the verification was cancelled");
                 if (integrator.value == Integrator::Adaptive && !integrates(mode.value)) continue;
                 if (!integrates(mode.value) && integrator.value != Integrator::Exponential) continue;
                 // An X-ray has no emission: the same sum as the exponential rule.
@@ -221,6 +224,7 @@ Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer, con
                     if (integrator.value == Integrator::Adaptive) error *= 255.0 / size;
                     row.errors.push_back(error);
                 }
+                if (found) found(row);
                 rows.push_back(std::move(row));
             }
         }

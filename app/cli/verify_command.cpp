@@ -5,8 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/extreme.h"
-#include "accuracy/verify.h"
+#include "accuracy/verification.h"
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
 
@@ -19,36 +18,19 @@ struct VerifyArguments {
     bool json = false;
 };
 
-/// Prints one suite; Text and Json make it of the rows.
-template <class Rows, class Text, class Json>
-int print(const Result<Rows>& rows, bool json, Text&& text, Json&& toJson,
-          const renderer::Renderer& renderer) {
-    if (!rows) return report(rows.error());
-    clearProgress();
-    if (json) {
-        nlohmann::ordered_json out = toJson(*rows);
-        const auto device = renderer.deviceInfo();
-        out["program"] = "Pellucid " PELLUCID_VERSION;
-        out["driver"] = device.vendor + ", " + device.renderer + ", " + device.version;
-        fmt::print("{}\n", out.dump(2));
-    } else {
-        fmt::print("{}", text(*rows));
-    }
-    return accuracy::allPassed(*rows) ? kExitOk : kExitBeyond;
-}
-
 int run(const VerifyArguments& arguments) {
     Result<renderer::Renderer> renderer = renderer::Renderer::headless();
     if (!renderer) return report(renderer.error());
-    if (arguments.extreme)
-        return print(
-            accuracy::verifyExtremes(*renderer, consoleProgress()), arguments.json,
-            [](const auto& rows) { return accuracy::extremeText(rows); },
-            [](const auto& rows) { return accuracy::extremeJson(rows); }, *renderer);
-    return print(
-        accuracy::verifyOrders(*renderer, consoleProgress()), arguments.json,
-        [](const auto& rows) { return accuracy::orderText(rows); },
-        [](const auto& rows) { return accuracy::orderJson(rows); }, *renderer);
+    accuracy::VerificationParts parts;
+    if (arguments.extreme) parts = {false, false, false, true};
+    const auto verification = accuracy::verify(*renderer, parts, consoleProgress());
+    if (!verification) return report(verification.error());
+    clearProgress();
+    if (arguments.json)
+        fmt::print("{}\n", accuracy::verificationJson(*verification).dump(2));
+    else
+        fmt::print("{}", accuracy::verificationText(*verification));
+    return verification->passed() ? kExitOk : kExitBeyond;
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ private:
     bool mayLeave();
     void showExport();
     void showPlan();
+    void showVerify();
     void showInformation();
     void showKeys();
     void showAbout();

@@ -20,6 +20,7 @@
 #include "app/desktop/main_window.h"
 #include "app/desktop/message_bar.h"
 #include "app/desktop/slice_view.h"
+#include "app/desktop/verify_dialog.h"
 #include "app/desktop/view_frame.h"
 #include "app/desktop/volume_view.h"
 #include "app/desktop/window_panel.h"
@@ -189,6 +190,8 @@ void MainWindow::buildHelpMenu() {
     QAction* plan = addTo(menu, "showPlan", tr("&Plan of the 3D picture..."));
     connect(plan, &QAction::triggered, this, &MainWindow::showPlan);
     m_needDocument.push_back(plan);
+    connect(addTo(menu, "verify", tr("&Verify accuracy...")), &QAction::triggered, this,
+            &MainWindow::showVerify);
     connect(addTo(menu, "about", tr("&About Pellucid")), &QAction::triggered, this, &MainWindow::showAbout);
 }
 
@@ -282,6 +285,15 @@ void MainWindow::showPlan() {
     if (!reply || !reply->frame) return;
     showText(this, "planDialog", tr("Plan of the 3D picture"),
              QString::fromStdString(renderer::planText(reply->frame->plan)), {860, 560});
+}
+
+void MainWindow::showVerify() {
+    auto* open = findChild<VerifyDialog*>();
+    // One that was closed is hidden until its run has ended.
+    if (!open || !open->isVisible()) open = new VerifyDialog(this);
+    open->show();
+    open->raise();
+    open->activateWindow();
 }
 
 void MainWindow::showInformation() {

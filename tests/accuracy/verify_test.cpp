@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Pellucid contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "accuracy/verify.h"
+#include "accuracy/verification.h"
 
 #include <array>
 #include <cmath>
@@ -47,14 +47,18 @@ TEST(OrderRow, PassesWithinItsToleranceOnly) {
 class Verify : public GpuTest {};
 
 TEST_F(Verify, EveryObservedOrderIsAsTheorySays) {
-    const auto rows = accuracy::verifyOrders(gpu());
-    ASSERT_TRUE(rows);
-    EXPECT_GE(rows->size(), 160u);
-    EXPECT_TRUE(accuracy::allPassed(*rows)) << accuracy::orderText(*rows);
+    std::size_t found = 0;
+    const auto verification =
+        accuracy::verify(gpu(), {}, {}, [&](const accuracy::VerificationLine&) { ++found; });
+    ASSERT_TRUE(verification && verification->orders);
+    EXPECT_FALSE(verification->extremes);
+    EXPECT_GE(verification->orders->size(), 160u);
+    EXPECT_EQ(found, verification->orders->size());
+    EXPECT_TRUE(verification->passed()) << accuracy::verificationText(*verification);
 }
 
 TEST_F(Verify, StopsWhenAsked) {
-    const auto rows = accuracy::verifyOrders(gpu(), [](double, std::string_view) { return false; });
+    const auto rows = accuracy::verify(gpu(), {}, [](double, std::string_view) { return false; });
     ASSERT_FALSE(rows);
     EXPECT_EQ(rows.error().code, ErrorCode::Cancelled);
 }
