@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numbers>
 
 namespace pellucid::accuracy {
 namespace {
@@ -15,8 +16,25 @@ namespace {
 struct Taps {
     int first = 0;
     int count = 1;
-    std::array<double, 4> weights{1.0, 0.0, 0.0, 0.0};
+    std::array<double, 6> weights{1.0};
 };
+
+double sinc(double x) {
+    const double angle = std::numbers::pi * x;
+    return std::abs(angle) < 1e-8 ? 1.0 : std::sin(angle) / angle;
+}
+
+/// Lanczos-windowed sinc of half-width 3, normalised to sum 1.
+Taps lanczosTaps(double x) {
+    Taps taps{-2, 6, {}};
+    double sum = 0.0;
+    for (int i = 0; i < 6; ++i) {
+        const double distance = x + 2.0 - i;
+        sum += taps.weights[static_cast<std::size_t>(i)] = sinc(distance) * sinc(distance / 3.0);
+    }
+    for (double& weight : taps.weights) weight /= sum;
+    return taps;
+}
 
 Taps tapsOf(Filter filter, double x) {
     const double x2 = x * x;
@@ -25,15 +43,18 @@ Taps tapsOf(Filter filter, double x) {
         case Filter::Nearest:
             return {};
         case Filter::Trilinear:
-            return {0, 2, {1.0 - x, x, 0.0, 0.0}};
+            return {0, 2, {1.0 - x, x}};
         case Filter::TricubicBSpline:  // Uniform cubic B-spline of the voxels themselves: it smooths.
             return {-1,
                     4,
                     {(1.0 - 3.0 * x + 3.0 * x2 - x3) / 6.0, (4.0 - 6.0 * x2 + 3.0 * x3) / 6.0,
                      (1.0 + 3.0 * x + 3.0 * x2 - 3.0 * x3) / 6.0, x3 / 6.0}};
-        case Filter::CatmullRom:
+        case Filter::Lanczos3:
+            return lanczosTaps(x);
+        default:
             break;
     }
+    // Catmull-Rom.
     return {-1,
             4,
             {(-x + 2.0 * x2 - x3) / 2.0, (2.0 - 5.0 * x2 + 3.0 * x3) / 2.0, (x + 4.0 * x2 - 3.0 * x3) / 2.0,
@@ -43,7 +64,7 @@ Taps tapsOf(Filter filter, double x) {
 }  // namespace
 
 Field::Field(const Volume& volume, int component, Filter filter)
-    : m_size(volume.grid().size), m_filter(filter) {
+    : m_size(volume.grid().size), m_filter(fieldOf(filter)) {
     const double replacement = volume.storedRange(component).lo;
     const auto components = static_cast<std::size_t>(volume.components());
     m_values.resize(static_cast<std::size_t>(volume.voxelCount()));

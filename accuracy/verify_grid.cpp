@@ -22,9 +22,12 @@ constexpr double kHeightMm = 6.0;
 constexpr double kStepMm = kVerifyBoxMm.x / 1024.0;
 
 /// Catmull-Rom's two leading terms, h^3 f''' and h^4 f'''', part only on fine voxels; a slice is cheap and
-/// not integrated.
-std::vector<int> voxelsFor(Mode mode) {
-    return mode == Mode::Slice ? std::vector{24, 32, 48, 64} : std::vector{8, 12, 16, 24, 32};
+/// not integrated. On a surface Lanczos 3 shows its order 1 on fine voxels only: 0.7 between 8 and 32 of
+/// them, 0.93 between 48 and 128.
+std::vector<int> voxelsFor(Mode mode, Filter filter) {
+    const bool surface = mode == Mode::FirstHit || mode == Mode::Isosurface;
+    const bool fine = mode == Mode::Slice || (surface && filter == Filter::Lanczos3);
+    return fine ? std::vector{24, 32, 48, 64} : std::vector{8, 12, 16, 24, 32};
 }
 
 Scene sceneFor(Mode mode, Filter filter) {
@@ -150,6 +153,11 @@ OrderRow expectation(Mode mode, Filter filter) {
         row.expected = 2.0;
         row.reason = "below the 3 of the other modes: the cause is not established";
     }
+    if (filter == Filter::Lanczos3) {
+        row.claim = Claim::AtLeast;
+        row.expected = 1.0;
+        row.reason = "does not give a linear ramp back: at least order 1, with a small factor";
+    }
     const bool surface = mode == Mode::FirstHit || mode == Mode::Isosurface;
     if (surface && filter == Filter::CatmullRom) {
         row.claim = Claim::Order;
@@ -173,13 +181,15 @@ Result<std::vector<OrderRow>> verifyGridOrders(renderer::Renderer& renderer, con
         ImageF exact{{kPixels, kPixels}, std::vector<glm::vec4>(kPixels * kPixels)};
         const Scene first = sceneFor(mode.value, Filter::Trilinear);
         std::map<int, VolumePtr> volumes;
-        for (const int n : voxelsFor(mode.value)) volumes[n] = bumpVolume(n, mode.value == Mode::MinIp);
         for (int y = 0; y < kPixels; ++y)
             for (int x = 0; x < kPixels; ++x)
                 exact.at(x, y) = glm::vec4(glm::vec3(exactPixel(first, rayThrough(first, x, y))), 1.0f);
         for (const auto& filter : enumNames<Filter>()) {
+            if (fieldOf(filter.value) != filter.value) continue;  // errors of a field, not of ways to draw it
             OrderRow row = expectation(mode.value, filter.value);
-            for (const auto& [n, volume] : volumes) {
+            for (const int n : voxelsFor(mode.value, filter.value)) {
+                VolumePtr& volume = volumes[n];
+                if (!volume) volume = bumpVolume(n, mode.value == Mode::MinIp);
                 const Scene scene = sceneFor(mode.value, filter.value);
                 const auto image = pictureOf(renderer, scene, volume);
                 if (!image) return tl::unexpected<Error>(image.error());

@@ -74,6 +74,7 @@ Result<std::vector<OrderRow>> verifyPixelOrders(renderer::Renderer& renderer, co
         if (!goOn(progress, done++ / static_cast<double>(modes.size()), fmt::format("pixel: {}", mode.name)))
             return fail(ErrorCode::Cancelled, "the verification was cancelled");
         for (const auto& filter : enumNames<Filter>()) {
+            if (fieldOf(filter.value) != filter.value) continue;  // errors of a field, not of ways to draw it
             OrderRow row = expectation(mode.value, filter.value);
             const VolumePtr volume =
                 bumpVolume(voxelsFor(mode.value, filter.value), mode.value == Mode::MinIp);

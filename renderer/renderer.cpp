@@ -42,14 +42,30 @@ double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+double fetchesPerValue(Filter filter) {
+    switch (filter) {
+        case Filter::Nearest:
+        case Filter::Trilinear:
+            return 1.0;
+        case Filter::TricubicBSpline:
+        case Filter::TrilinearExact:
+            return 8.0;
+        case Filter::CatmullRom:
+        case Filter::TricubicBSplineDeBoor:
+            return 27.0;
+        case Filter::TricubicBSplineLut:
+            return 64.0;
+        case Filter::Lanczos3:
+            break;
+    }
+    return 216.0;
+}
+
 /// First guess of a sample's cost: slower than any device seen, so that the first tile is not too long for
 /// one.
 double guessedMsPerSample(const Features& features) {
     constexpr double kMsPerFetch = 10e-6;
-    const double fetchesPerValue = features.filter == Filter::CatmullRom        ? 27.0
-                                   : features.filter == Filter::TricubicBSpline ? 8.0
-                                                                                : 1.0;
-    return kMsPerFetch * fetchesPerValue * (features.lit ? 7.0 : 1.0);
+    return kMsPerFetch * fetchesPerValue(features.filter) * (features.lit ? 7.0 : 1.0);
 }
 
 /// True when everything this scene's mode uses is set: finding defaults reads voxels, which an interactive
@@ -144,6 +160,7 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, c
     if (tables.preintegration != nullptr) inputs.segmentTable = tables.preintegration->texture.id();
     if (tables.integrals != nullptr) inputs.segmentTable = tables.integrals->texture.id();
     inputs.blueNoise = plan.features.jitter ? store.blueNoise().id() : 0;
+    inputs.filterWeights = item.filter == Filter::TricubicBSplineLut ? store.filterWeights().id() : 0;
     inputs.lightsBlock = plan.features.lit ? store.lights(lightBlock(scene, volume->grid())).id() : 0;
     inputs.interpolates = item.filter != Filter::Nearest;
     inputs.target = *target;

@@ -39,10 +39,15 @@ std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>() {
 template <>
 std::span<const EnumName<Filter>> enumNames<Filter>() {
     using enum Filter;
-    static constexpr std::array<EnumName<Filter>, 4> kNames{{{Nearest, "nearest"},
-                                                             {Trilinear, "trilinear"},
-                                                             {TricubicBSpline, "tricubic-bspline"},
-                                                             {CatmullRom, "catmull-rom"}}};
+    static constexpr std::array<EnumName<Filter>, 8> kNames{
+        {{Nearest, "nearest"},
+         {Trilinear, "trilinear"},
+         {TricubicBSpline, "tricubic-bspline"},
+         {CatmullRom, "catmull-rom"},
+         {Lanczos3, "lanczos3"},
+         {TrilinearExact, "trilinear-exact"},
+         {TricubicBSplineDeBoor, "tricubic-bspline-deboor"},
+         {TricubicBSplineLut, "tricubic-bspline-lut"}}};
     return kNames;
 }
 

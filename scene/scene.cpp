@@ -36,6 +36,18 @@ double stepMm(const Quality& quality, const Grid& grid) {
     return quality.stepMm ? *quality.stepMm : quality.stepVoxels * smallestSpacingMm(grid);
 }
 
+Filter fieldOf(Filter filter) {
+    switch (filter) {
+        case Filter::TrilinearExact:
+            return Filter::Trilinear;
+        case Filter::TricubicBSplineDeBoor:
+        case Filter::TricubicBSplineLut:
+            return Filter::TricubicBSpline;
+        default:
+            return filter;
+    }
+}
+
 bool usesTransferFunction(Mode mode) {
     return mode == Mode::Composite || mode == Mode::XRay || mode == Mode::Emission ||
            mode == Mode::FirstHit || mode == Mode::Isosurface;

@@ -19,7 +19,16 @@ namespace pellucid {
 inline constexpr int kSceneVersion = 1;
 
 /// Reconstruction filter of the voxel grid.
-enum class Filter { Nearest, Trilinear, TricubicBSpline, CatmullRom };
+enum class Filter {
+    Nearest,
+    Trilinear,
+    TricubicBSpline,
+    CatmullRom,
+    Lanczos3,
+    TrilinearExact,         ///< As Trilinear, in float whatever the texture unit's precision.
+    TricubicBSplineDeBoor,  ///< As TricubicBSpline, by recursion; for comparison.
+    TricubicBSplineLut      ///< As TricubicBSpline, weights from a table; for comparison.
+};
 
 /// How a ray becomes a pixel.
 enum class Mode {
@@ -131,6 +140,8 @@ struct Scene {
 
 /// Modes whose colours or extinctions come from the transfer function.
 [[nodiscard]] bool usesTransferFunction(Mode mode);
+/// The filter whose field this one draws in another way; most have a field of their own.
+[[nodiscard]] Filter fieldOf(Filter filter);
 /// Modes that are lit.
 [[nodiscard]] bool usesLights(Mode mode);
 /// Modes shown through the window.

@@ -40,10 +40,10 @@ int runCli(int argc, const char* const* argv, const OpenDesktop& openDesktop) {
     program.require_subcommand(0, 1);
 
     const Command open = addOpenCommand(program, openDesktop);
-    const std::vector<Command> commands = {addRenderCommand(program), addInfoCommand(program),
-                                           addPlanCommand(program),   addCompareCommand(program),
-                                           addReportCommand(program), addDoctorCommand(program),
-                                           addVerifyCommand(program)};
+    const std::vector<Command> commands = {addRenderCommand(program),   addInfoCommand(program),
+                                           addPlanCommand(program),     addCompareCommand(program),
+                                           addResampleCommand(program), addReportCommand(program),
+                                           addDoctorCommand(program),   addVerifyCommand(program)};
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version

@@ -23,6 +23,7 @@ Command addInfoCommand(CLI::App& program);
 Command addPlanCommand(CLI::App& program);
 Command addCompareCommand(CLI::App& program);
 Command addReportCommand(CLI::App& program);
+Command addResampleCommand(CLI::App& program);
 Command addDoctorCommand(CLI::App& program);
 Command addVerifyCommand(CLI::App& program);
 

@@ -41,7 +41,9 @@ QualityPanel::QualityPanel(Document& document, QWidget* parent)
     m_fov->setObjectName(QStringLiteral("fov"));
     m_background->setObjectName(QStringLiteral("background"));
     m_dither->setObjectName(QStringLiteral("dither"));
-    m_filter->addItems({tr("Nearest voxel"), tr("Trilinear"), tr("Tricubic B-spline"), tr("Catmull-Rom")});
+    m_filter->addItems({tr("Nearest voxel"), tr("Trilinear"), tr("Tricubic B-spline"), tr("Catmull-Rom"),
+                        tr("Lanczos 3 (slow)"), tr("Trilinear in full precision"),
+                        tr("Tricubic B-spline, recursive"), tr("Tricubic B-spline, weight table")});
     m_space->addItems({tr("As shown"), tr("Linear light")});
     m_projection->addItems({tr("Perspective"), tr("Orthographic")});
     m_filter->setToolTip(tr("How values between voxels are found, in slices and in 3D."));

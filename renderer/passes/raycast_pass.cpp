@@ -72,8 +72,9 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
     glBindVertexArray(m_noVertices.id());
     glBindTextureUnit(0, inputs.volumeTexture);
     glBindSampler(0, inputs.interpolates ? m_linear.id() : m_nearest.id());
-    const GLuint tables[] = {inputs.transferTable, inputs.segmentTable, inputs.blueNoise};
-    for (GLuint i = 0; i < 3; ++i) {
+    const GLuint tables[] = {inputs.transferTable, inputs.segmentTable, inputs.blueNoise,
+                             inputs.filterWeights};
+    for (GLuint i = 0; i < 4; ++i) {
         if (tables[i] == 0) continue;
         glBindTextureUnit(1 + i, tables[i]);
         glBindSampler(1 + i, m_linear.id());

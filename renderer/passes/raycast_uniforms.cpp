@@ -166,6 +166,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     uniforms.emplace_back("preintegrationTable", 2);
     uniforms.emplace_back("integralTable", 2);
     uniforms.emplace_back("blueNoise", 3);
+    uniforms.emplace_back("filterWeights", 4);
     return uniforms;
 }
 

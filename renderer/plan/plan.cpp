@@ -156,6 +156,9 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
                                           facts.grid.size.z, name(facts.type))});
     if (usesTransferFunction(scene.mode)) addTransferTable(plan, scene, facts);
     addPreintegration(plan, scene, facts);
+    if (plan.features.filter == Filter::TricubicBSplineLut)
+        plan.resources.push_back(
+            {"filter weights", "texture 1D RGBA32F", 128 * 16, "four weights at 128 places between voxels"});
     if (plan.features.jitter)
         plan.resources.push_back(
             {"blue noise", "texture 2D R32F", 64 * 64 * 4, "one offset a pixel, repeated"});

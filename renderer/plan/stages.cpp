@@ -26,6 +26,10 @@ std::span<const StageVariant> stageTable() {
         {"reconstruct", "trilinear", {"volumeTexture"}, {}, {}},
         {"reconstruct", "tricubic_bspline", {"volumeTexture", "volumeSize"}, {}, {}},
         {"reconstruct", "catmull_rom", {"volumeTexture", "volumeSize"}, {}, {}},
+        {"reconstruct", "lanczos3", {"volumeTexture"}, {}, {}},
+        {"reconstruct", "trilinear_exact", {"volumeTexture"}, {}, {}},
+        {"reconstruct", "tricubic_bspline_deboor", {"volumeTexture", "volumeSize"}, {}, {}},
+        {"reconstruct", "tricubic_bspline_lut", {"volumeTexture", "filterWeights"}, {}, {}},
         {"classify", "tf1d", {"transferTable", "tableFromValue", "extinctionPerMm"}, {}, {}},
         {"classify", "window", {"windowFromValue"}, {}, {}},
         {"integrate", "exponential", {}, {}, {"classify"}},
@@ -105,17 +109,28 @@ StageRow rayRow(Projection projection) {
 }
 
 StageRow reconstructRow(Filter filter) {
+    const auto row = [&](const char* variant) {
+        return StageRow{"reconstruct", variant, fmt::format("filter {}", name(filter))};
+    };
     switch (filter) {
         case Filter::Nearest:
-            return {"reconstruct", "nearest", "filter nearest"};
+            return row("nearest");
         case Filter::Trilinear:
-            return {"reconstruct", "trilinear", "filter trilinear"};
+            return row("trilinear");
         case Filter::TricubicBSpline:
-            return {"reconstruct", "tricubic_bspline", "filter tricubic-bspline"};
+            return row("tricubic_bspline");
         case Filter::CatmullRom:
+            return row("catmull_rom");
+        case Filter::Lanczos3:
+            return row("lanczos3");
+        case Filter::TrilinearExact:
+            return row("trilinear_exact");
+        case Filter::TricubicBSplineDeBoor:
+            return row("tricubic_bspline_deboor");
+        case Filter::TricubicBSplineLut:
             break;
     }
-    return {"reconstruct", "catmull_rom", "filter catmull-rom"};
+    return row("tricubic_bspline_lut");
 }
 
 StageRow integrateRow(Integrator integrator) {
@@ -194,7 +209,7 @@ StageRow traverseRow(const Features& features) {
         return {"traverse", "adaptive", "steps follow the error estimate of each segment"};
     if (integratesSegments(features.integrator))
         return {"traverse", "segments", "equal segments, integrated from both ends"};
-    // Unrolling a cubic filter's 8 or 27 fetches would only make the program longer to compile.
+    // Unrolling a wider filter's 8 to 216 fetches would only make the program longer to compile.
     if (features.filter == Filter::Nearest || features.filter == Filter::Trilinear)
         return {"traverse", "midpoints_by_four",
                 "equal segments; a value is one fetch, so four are taken a turn"};

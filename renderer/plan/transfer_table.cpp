@@ -95,8 +95,14 @@ TransferFunction1D inCompositingSpace(const TransferFunction1D& function, Compos
 }
 
 ValueRange reachableValues(ValueRange range, Filter filter) {
-    if (filter != Filter::CatmullRom) return range;
-    const double overshoot = 0.5 * (1.953125 - 1.0) * (range.hi - range.lo);
+    // The largest sum of absolute weights in three axes: (5/4)^3 and, half-way between voxels,
+    // (71/46)^3.
+    constexpr double kLanczosWeights = 71.0 / 46.0;
+    double absoluteWeights = 1.0;
+    if (filter == Filter::CatmullRom) absoluteWeights = 1.953125;
+    if (filter == Filter::Lanczos3) absoluteWeights = kLanczosWeights * kLanczosWeights * kLanczosWeights;
+    // Weights sum to 1, so half of what is above 1 is negative.
+    const double overshoot = 0.5 * (absoluteWeights - 1.0) * (range.hi - range.lo);
     return {range.lo - overshoot, range.hi + overshoot};
 }
 

@@ -3,6 +3,7 @@
 #include "renderer/resources/resource_store.h"
 
 #include "renderer/resources/blue_noise.h"
+#include "renderer/resources/filter_weights.h"
 
 #include <fmt/format.h>
 
@@ -98,6 +99,11 @@ const IntegralTexture& ResourceStore::integrals(const TransferFunction1D& functi
 const GlTexture& ResourceStore::blueNoise() {
     if (!m_blueNoise) m_blueNoise = createBlueNoise();
     return m_blueNoise;
+}
+
+const GlTexture& ResourceStore::filterWeights() {
+    if (!m_filterWeights) m_filterWeights = createBSplineWeights();
+    return m_filterWeights;
 }
 
 const GlBuffer& ResourceStore::lights(const std::vector<glm::vec4>& block) {

@@ -27,6 +27,7 @@ public:
     [[nodiscard]] const IntegralTexture& integrals(const TransferFunction1D& function, CompositingSpace space,
                                                    const TableLayout& domain, int size);
     [[nodiscard]] const GlTexture& blueNoise();
+    [[nodiscard]] const GlTexture& filterWeights();
     /// A std140 block with the scene's lights; kept while the lights are the same.
     [[nodiscard]] const GlBuffer& lights(const std::vector<glm::vec4>& block);
     /// The float target, kept while its size is the same.
@@ -57,6 +58,7 @@ private:
     std::list<FunctionTable<PreintegrationTexture>> m_preintegrations;
     std::list<FunctionTable<IntegralTexture>> m_integrals;
     GlTexture m_blueNoise;
+    GlTexture m_filterWeights;
     std::list<FunctionTable<TransferTexture>> m_tables;  // most recently used first
     std::list<Target> m_targets;                         // most recently used first
     std::vector<glm::vec4> m_lightBlock;

@@ -147,7 +147,7 @@ TEST_F(GpuAgainstReference, EveryModeFilterProjectionAndLight) {
                     Scene scene = sceneOf(colourfulFunction(2.0),
                                           perspective ? perspectiveAlong(volume->grid(), kOblique, 3.5)
                                                       : orthographicAlong(volume->grid(), kOblique, 40.0),
-                                          {24, 24});
+                                          glm::ivec2(filter == Filter::Lanczos3 ? 8 : 24));
                     scene.mode = mode;
                     scene.volumes.front().filter = filter;
                     scene.hitOpacity = 0.2;

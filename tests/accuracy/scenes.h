@@ -71,9 +71,11 @@ inline Scene rayScene(const TransferFunction1D& function, const Grid& grid, glm:
     return sceneOf(function, orthographicAlong(grid, forward, 1.0), {1, 1});
 }
 
+/// Every filter with a field of its own (fieldOf); the others draw one of these fields in another way
+/// (FilterVariants in filter_test.cpp holds them against it).
 inline const std::vector<Filter>& allFilters() {
     static const std::vector<Filter> filters{Filter::Nearest, Filter::Trilinear, Filter::TricubicBSpline,
-                                             Filter::CatmullRom};
+                                             Filter::CatmullRom, Filter::Lanczos3};
     return filters;
 }
 

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 class Usage : public ProgramTest {};
 
 TEST_F(Usage, HelpOfEveryCommandTeachesWithExamples) {
-    for (const std::string command : {"", "render", "info", "plan", "compare", "report"}) {
+    for (const std::string command : {"", "render", "info", "plan", "compare", "report", "resample"}) {
         const Outcome outcome = command.empty() ? run({"--help"}) : run({command, "--help"});
         SCOPED_TRACE(command);
         EXPECT_EQ(outcome.status, 0);
@@ -24,8 +24,8 @@ TEST_F(Usage, HelpOfEveryCommandTeachesWithExamples) {
 
 TEST_F(Usage, HelpNamesEveryCommandAndTheExitStatuses) {
     const std::string help = run({"--help"}).out;
-    for (const char* word :
-         {"render", "info", "plan", "compare", "report", "doctor", "130", "not a medical device"}) {
+    for (const char* word : {"render", "info", "plan", "compare", "report", "resample", "doctor", "130",
+                             "not a medical device"}) {
         EXPECT_THAT(help, HasSubstr(word));
     }
 }

@@ -51,7 +51,8 @@ inline Scene rampScene(Mode mode = Mode::Composite) {
 inline constexpr Mode kAllModes[] = {Mode::Composite, Mode::Mip,        Mode::MinIp,
                                      Mode::Average,   Mode::XRay,       Mode::Emission,
                                      Mode::FirstHit,  Mode::Isosurface, Mode::Slice};
-inline constexpr Filter kAllFilters[] = {Filter::Nearest, Filter::Trilinear, Filter::TricubicBSpline,
-                                         Filter::CatmullRom};
+inline constexpr Filter kAllFilters[] = {
+    Filter::Nearest,  Filter::Trilinear,      Filter::TricubicBSpline,       Filter::CatmullRom,
+    Filter::Lanczos3, Filter::TrilinearExact, Filter::TricubicBSplineDeBoor, Filter::TricubicBSplineLut};
 
 }  // namespace pellucid::test

@@ -73,13 +73,18 @@ TEST(TransferTable, NothingVariesOutsideTheReachableValues) {
     EXPECT_EQ(evaluate(function, above.lo).extinction, 1.0);
 }
 
-TEST(TransferTable, CatmullRomReachesBeyondTheVoxels) {
+TEST(TransferTable, SharpFiltersReachBeyondTheVoxels) {
     // A checkerboard of 0 and 1 along one axis: the spline between two equal neighbours overshoots by 1/8 of
     // the step; in three axes the bound is (5/4)^3 of the absolute weights, of which half of the excess lies
     // on each side.
     const auto reach = reachableValues({0, 1}, Filter::CatmullRom);
     EXPECT_LE(reach.lo, -0.125);
     EXPECT_GE(reach.hi, 1.125);
+    // Half-way between voxels the weights of Lanczos 3 are as 18, -100, 450, 450, -100, 18 with the sum 736:
+    // 71/46 in absolute value.
+    const double beyond = (std::pow(71.0 / 46.0, 3) - 1.0) / 2.0;
+    EXPECT_DOUBLE_EQ(reachableValues({0, 1}, Filter::Lanczos3).lo, -beyond);
+    EXPECT_DOUBLE_EQ(reachableValues({0, 1}, Filter::Lanczos3).hi, 1.0 + beyond);
     EXPECT_EQ(reachableValues({0, 1}, Filter::TricubicBSpline), (ValueRange{0, 1}));
 }
 
