@@ -114,9 +114,9 @@ std::string unsmoothness(const Scene& scene, Filter filter) {
         else if (function.points.size() > 1)
             reasons.emplace_back("the transfer function has kinks");
     }
-    if (filter == Filter::Nearest)
+    if (fieldOf(filter) == Filter::Nearest)
         reasons.emplace_back("the field jumps from voxel to voxel");
-    else if (filter == Filter::Trilinear)
+    else if (fieldOf(filter) == Filter::Trilinear)
         reasons.emplace_back("the field has kinks between cells");
     std::string text;
     for (const std::string& reason : reasons) text += (text.empty() ? "" : ", ") + reason;

@@ -19,11 +19,12 @@ std::vector<E> allOf() {
     return values;
 }
 
+/// The scene's own and all others that make a field of their own.
 std::vector<Filter> filtersOf(const Scene& scene) {
     const Filter own = scene.volumes.front().filter;
     std::vector<Filter> filters{own};
     for (const Filter filter : allOf<Filter>())
-        if (filter != own) filters.push_back(filter);
+        if (filter != own && fieldOf(filter) == filter) filters.push_back(filter);
     return filters;
 }
 

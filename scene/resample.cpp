@@ -21,6 +21,9 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
+/// The transition of a sinc in a Hann window of half-width w reaches 1 / w to both sides of 0.5 cycles a
+/// sample. 6 is the least that leaves 0.05 at 0.6, which would come back as 0.4; 8 leaves 0.004 there and
+/// 0.996 at 0.4, ripples by 0.006 beside the transition and by 4e-4 at 0.2.
 constexpr double kSincHalfWidth = 8.0;
 /// 0.65 of a spacing passes exp(-2 pi^2 0.65^2 0.6^2) = 0.0498 at 0.6 cycles a sample, which would come back
 /// as 0.4.
@@ -64,7 +67,7 @@ double kernel(ResampleMethod method, double x) {
         return std::exp(-0.5 * x * x / (kGaussianDeviation * kGaussianDeviation));
     const auto sinc = [](double t) { return std::abs(t) < 1e-8 ? 1.0 : std::sin(pi * t) / (pi * t); };
     if (std::abs(x) >= kSincHalfWidth) return 0.0;
-    // Hann: its ripples fall off faster away from the transition than those of a sinc window, to below 1e-3.
+    // Hann: away from the transition its ripples fall off faster than those of a sinc window.
     return sinc(x) * (0.5 + 0.5 * std::cos(pi * x / kSincHalfWidth));
 }
 

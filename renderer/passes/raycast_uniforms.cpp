@@ -100,6 +100,7 @@ void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan, doubl
     if (!adaptive) return;
     // Four turns for each of the shortest segments (some are refused before they are short) must fit into
     // what the driver gives.
+    maxLoopTurns /= turnsPerSample(plan);
     const double longestRay = plan.samplesPerRay * plan.stepMm;
     const double shortest = std::max(kShortest * plan.stepMm, 4.0 * longestRay / maxLoopTurns);
     uniforms.emplace_back("shortestStepMm", static_cast<float>(shortest));

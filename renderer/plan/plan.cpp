@@ -47,14 +47,6 @@ bool has(const Plan& plan, std::string_view stage, std::string_view variant) {
                        [&](const StageRow& row) { return row.stage == stage && row.variant == variant; });
 }
 
-/// Turns of the loops that a ray of so many samples takes at most.
-double loopTurns(const Plan& plan, double samples) {
-    if (plan.features.lit && has(plan, "compose", "over"))
-        return 2.0 * samples;  // one to find a sample, one to light it
-    if (has(plan, "traverse", "midpoints_by_four")) return samples / 4.0 + 4.0;
-    return samples + 2.0;
-}
-
 Result<void> checkSamples(const Plan& plan, const DeviceLimits& limits) {
     const double samples = plan.samplesPerRay;
     if (!(samples <= kMaxSamplesPerRay))
@@ -62,12 +54,14 @@ Result<void> checkSamples(const Plan& plan, const DeviceLimits& limits) {
                     fmt::format("/quality: a step of {:g} mm makes {:.3g} samples on the longest ray; at "
                                 "most {:.0f} are allowed",
                                 plan.stepMm, samples, kMaxSamplesPerRay));
-    if (loopTurns(plan, samples) > limits.maxLoopTurns)
+    // The halvings of a surface's root and what each loop needs to find its end.
+    constexpr double kTurnsPerRay = 32.0;
+    if (samples * turnsPerSample(plan) + kTurnsPerRay > limits.maxLoopTurns)
         return fail(ErrorCode::InvalidArgument,
-                    fmt::format("/quality: a step of {:g} mm makes {:.0f} samples on the longest ray; this "
-                                "OpenGL driver ends loops after {:.0f} "
-                                "turns, take a longer step",
-                                plan.stepMm, samples, limits.maxLoopTurns));
+                    fmt::format("/quality: a step of {:g} mm makes {:.0f} samples on the longest ray of {:g} "
+                                "loop turns each; this OpenGL driver ends loops after {:.0f} turns, take a "
+                                "longer step",
+                                plan.stepMm, samples, turnsPerSample(plan), limits.maxLoopTurns));
     return {};
 }
 
@@ -115,6 +109,21 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
 
 VolumeFacts factsOf(const Volume& volume, int component) {
     return {volume.grid(), volume.type(), volume.physicalRange(component)};
+}
+
+double turnsPerSample(const Plan& plan) {
+    // A loop takes one turn more than its body, the one that finds it at its end. Loops of few turns are
+    // unrolled by the compiler and take none: those of the filters (up to 6 x 6 x 6) and over up to 8 lights.
+    constexpr int kUnrolledLights = 8;
+    const bool surface = has(plan, "traverse", "boundaries");
+    const double overLights = plan.features.lit && !surface && plan.features.lights > kUnrolledLights
+                                  ? plan.features.lights + 1.0
+                                  : 0.0;
+    // A lit sample: two turns to find it, one to light it.
+    if (plan.features.lit && has(plan, "compose", "over")) return 3.0 + overLights;
+    if (has(plan, "traverse", "adaptive")) return 1.0 + 3.0 * overLights;
+    if (has(plan, "traverse", "midpoints_by_four")) return 0.25;
+    return 1.0 + overLights;
 }
 
 glm::ivec2 targetSize(glm::ivec2 picture) {

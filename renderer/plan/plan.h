@@ -93,6 +93,10 @@ struct DeviceLimits {
 [[nodiscard]] Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
                                     const DeviceLimits& limits = {});
 
+/// Turns of all loops of the program that one sample takes, as counted on llvmpipe (Mesa 22.3); what
+/// DeviceLimits::maxLoopTurns limits. Of the adaptive integrator: one tried segment.
+[[nodiscard]] double turnsPerSample(const Plan& plan);
+
 /// Size of the float render target of a picture: as wide, and as high as 128 MB allow. Larger pictures are
 /// drawn in bands.
 [[nodiscard]] glm::ivec2 targetSize(glm::ivec2 picture);

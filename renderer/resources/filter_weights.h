@@ -8,8 +8,9 @@ namespace pellucid::renderer {
 
 inline constexpr int kFilterWeightTexels = 128;
 
-/// The four weights of the cubic B-spline at u = n / 127, RGBA32F: interpolated linearly, a value of one axis
-/// is off by at most 4 max|w''| h^2 / 8 = 6.2e-5 of the range of the four voxels (h = 1 / 127, max|w''| = 2).
+/// The four weights of the cubic B-spline at u = n / 127, RGBA32F. Interpolated linearly, a value of one axis
+/// is off by at most h^2 / 8 times the positive part of the sum of w_i'' (1, -2, 1, 0 at u = 0, so 2 at most)
+/// times the range of the four voxels: 1.6e-5 of it.
 [[nodiscard]] GlTexture createBSplineWeights();
 
 }  // namespace pellucid::renderer

@@ -107,10 +107,10 @@ TEST_F(GpuAgainstReference, SameSamplesBackToFrontInDouble) {
 /// voxel).
 double fineStep(Mode mode, Filter filter, bool lit) {
     // Jumps at voxel borders: half a step of the wrong voxel each, so 50 * h / 2 in the worst case; the
-    // emission is not dimmed and needs it. Lit rays and surfaces take one or two turns of a loop a sample,
-    // and llvmpipe ends loops after 65535 turns.
+    // emission is not dimmed and needs it. Surfaces take one turn of a loop a sample and lit rays three, and
+    // llvmpipe ends loops after 65535 turns.
     const bool surface = mode == Mode::FirstHit || mode == Mode::Isosurface;
-    if (filter == Filter::Nearest) return lit || surface ? 1.0 / 500.0 : 1.0 / 1024.0;
+    if (filter == Filter::Nearest) return surface ? 1.0 / 500.0 : lit ? 1.0 / 320.0 : 1.0 / 1024.0;
     // A peak between two samples is missed by at most h / 2 at the slope beside it.
     if (mode == Mode::Mip || mode == Mode::MinIp) return 1.0 / 512.0;
     // A surface thinner than a step is missed.
@@ -126,8 +126,8 @@ double fineStep(Mode mode, Filter filter, bool lit) {
 /// face, and which neighbours its differences take there is decided by the rounding of the hit.
 double allowedShare(Mode mode, Filter filter, bool lit) {
     const bool surface = mode == Mode::Isosurface || mode == Mode::FirstHit;
-    // Lit nearest-filter rays have twice the step of unlit ones (the driver's loop limit), so the jumps at
-    // their voxel faces, first order in the step, leave 1/255 in one pixel of sixteen.
+    // Lit nearest-filter rays have three times the step of unlit ones (the driver's loop limit), so the jumps
+    // at their voxel faces, first order in the step, leave 1/255 in one pixel of sixteen.
     if (filter == Filter::Nearest && lit) return 0.1;
     if (surface) return 0.03;
     return filter == Filter::Nearest || lit ? 0.01 : 0.0;

@@ -45,14 +45,14 @@ double sliceError(const Scene& scene, const VolumePtr& volume, const ImageF& ima
 }
 
 /// The convolution sum on random voxels in [0, 1]: positions are good to some 1e-6 of a voxel at slopes of a
-/// few a voxel, and weights are float. With weights from the table each axis adds up to 6.2e-5.
+/// few a voxel, and weights are float. With weights from the table each axis adds up to 1.6e-5.
 TEST_F(FilterVariants, SlicesAreTheConvolutionSum) {
     const VolumePtr volume = accuracy::randomVolume(axisAlignedGrid({12, 12, 12}), 5);
     for (const auto& filter : enumNames<Filter>()) {
         if (filter.value == Filter::Nearest) continue;  // Projection.SlicesShowStoredValuesBitForBit
         const Scene scene = sliceScene(volume->grid(), kOblique, 8.0, filter.value, {64, 64});
         const bool table = filter.value == Filter::TricubicBSplineLut;
-        EXPECT_LE(sliceError(scene, volume, draw(scene, volume)), (table ? 2e-4 : 1e-5) + filterError())
+        EXPECT_LE(sliceError(scene, volume, draw(scene, volume)), (table ? 6e-5 : 1e-5) + filterError())
             << filter.name;
     }
 }
@@ -65,7 +65,7 @@ TEST_F(FilterVariants, DrawTheSameFieldAnotherWay) {
     };
     const VolumePtr volume = accuracy::randomVolume(axisAlignedGrid({12, 12, 12}), 6);
     for (const Pair& pair : {Pair{Filter::TricubicBSpline, Filter::TricubicBSplineDeBoor, 2e-6},
-                             Pair{Filter::TricubicBSpline, Filter::TricubicBSplineLut, 3.0 * 6.2e-5},
+                             Pair{Filter::TricubicBSpline, Filter::TricubicBSplineLut, 3.0 * 1.6e-5 + 2e-6},
                              Pair{Filter::Trilinear, Filter::TrilinearExact, 2e-6}}) {
         Scene scene = sliceScene(volume->grid(), kOblique, 8.0, pair.direct, {64, 64});
         const ImageF direct = draw(scene, volume);
@@ -75,15 +75,17 @@ TEST_F(FilterVariants, DrawTheSameFieldAnotherWay) {
     }
 }
 
-/// Along one axis alone the table is within the bound of linear interpolation.
+/// Along one axis alone, over alternating voxels: the bound of linear interpolation is reached in the entries
+/// next to a voxel.
 TEST_F(FilterVariants, TheWeightTableIsWithinItsBound) {
-    const VolumePtr volume = accuracy::randomVolume(axisAlignedGrid({24, 1, 1}), 9);
-    Scene scene = sliceScene(volume->grid(), {0.0, 1.0, 0.0}, 1.0, Filter::TricubicBSpline, {1920, 80});
+    const VolumePtr volume = accuracy::sampledVolume(axisAlignedGrid({24, 1, 1}), VoxelType::Float32,
+                                                     [](glm::ivec3 i) { return i.x % 2; });
+    Scene scene = sliceScene(volume->grid(), {0.0, 1.0, 0.0}, 0.1, Filter::TricubicBSpline, {4096, 80});
     const ImageF direct = draw(scene, volume);
     scene.volumes.front().filter = Filter::TricubicBSplineLut;
     const double found = largestDifference(direct, draw(scene, volume));
-    EXPECT_LE(found, 6.5e-5 + filterError());
-    EXPECT_GT(found, 1e-6);  // it is the table that was drawn
+    EXPECT_LE(found, 1.6e-5 + 1e-6 + filterError());
+    EXPECT_GT(found, 1.2e-5);
 }
 
 /// A ramp between two voxels magnified 2000 times: a texture unit's 8-bit weights show at most 256 values
@@ -126,24 +128,6 @@ TEST(FilterRanking, SharperKernelsReconstructBetter) {
         const double rmse = std::sqrt(sum / count);
         EXPECT_LT(rmse, 0.9 * before) << name(filter) << ' ' << rmse << " after " << before;
         before = rmse;
-    }
-}
-
-/// A driver may end all loops of a pixel after some ten thousand turns (DeviceLimits::maxLoopTurns); a
-/// filter's own loops over 64 or 216 voxels must not use them up, or a ray of thousands of samples loses its
-/// far end.
-TEST_F(FilterVariants, TheirLoopsDoNotCutRaysShort) {
-    const Grid grid = axisAlignedGrid({4, 8, 4});
-    const VolumePtr volume = constantVolume(grid, 0.5);
-    for (const auto& filter : enumNames<Filter>()) {
-        Scene scene = rayScene(constantFunction({1.0, 0.5, 0.25}, 0.1), grid, {0.0, 1.0, 0.0});
-        scene.volumes.front().filter = filter.value;
-        scene.quality.stepVoxels = 1.0 / 2000.0;
-        // 16000 float additions: an ulp of the depth each, at worst.
-        EXPECT_NEAR(draw(scene, volume).pixels.front().a, -std::expm1(-0.8), 16000 * 1.2e-7) << filter.name;
-        scene.lights = std::vector<Light>{Light{}};
-        EXPECT_NEAR(draw(scene, volume).pixels.front().a, -std::expm1(-0.8), 16000 * 1.2e-7)
-            << filter.name << " lit";
     }
 }
 

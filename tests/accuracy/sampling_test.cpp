@@ -6,6 +6,7 @@
 #include "accuracy/metrics.h"
 #include "accuracy/reference.h"
 #include "scene/image.h"
+#include "scene/names.h"
 #include "tests/accuracy/gpu_fixture.h"
 
 namespace pellucid::test {
@@ -68,6 +69,68 @@ TEST_F(Sampling, FineStepsAreNeverCutShort) {
     // 2e-3.
     EXPECT_LE(largestDifference(coarse, fine.image), 0.4 * 0.1 + 2e-3);
     EXPECT_GT(static_cast<double>(fine.image.at(6, 6).a), 0.4);
+}
+
+/// The finest step in mm that the plan allows on this device, or that of 65535 samples where it allows more.
+double finestStepMm(const Scene& scene, const Volume& volume, const renderer::DeviceLimits& limits) {
+    double refused = 2.0 * radiusMm(volume.grid()) / 65536.0;
+    double accepted = 1.0;
+    while (accepted > 1.002 * refused) {
+        Scene tried = scene;
+        tried.quality.stepMm = std::sqrt(refused * accepted);
+        (renderer::makePlan(tried, {renderer::factsOf(volume, 0)}, limits) ? accepted : refused) =
+            *tried.quality.stepMm;
+    }
+    return accepted;
+}
+
+/// A driver may end all loops of a pixel after some ten thousand turns (DeviceLimits::maxLoopTurns). Whatever
+/// the plan allows must be drawn to its end, so it must count the loops inside filters and over lights.
+TEST_F(Sampling, TheFinestStepAllowedIsDrawnToItsEnd) {
+    const VolumePtr volume = constantVolume(axisAlignedGrid({1, 8, 1}), 0.5);
+    const auto check = [&](Scene scene, const std::string& what) {
+        scene.camera.pose->heightMm = 0.5;
+        scene.quality.stepMm = finestStepMm(scene, *volume, gpu().limits());
+        const renderer::Frame frame = frameOf(scene, volume);
+        RecordProperty(what, static_cast<int>(frame.plan.samplesPerRay));
+        // 65535 sums of a depth up to 0.8: half an ulp of it each, at worst.
+        EXPECT_NEAR(static_cast<double>(frame.image.at(0, 0).a), -std::expm1(-0.8), 65535 * kFloatUlp / 2.0)
+            << what << ", samples " << frame.plan.samplesPerRay;
+    };
+    const Scene plain = rayScene(constantFunction({1.0, 0.5, 0.25}, 0.1), volume->grid(), {0.0, 1.0, 0.0});
+    for (const auto& filter : enumNames<Filter>()) {
+        Scene scene = plain;
+        scene.volumes.front().filter = filter.value;
+        check(scene, filter.name);
+        scene.lights = std::vector<Light>{Light{}};
+        check(scene, filter.name + std::string(" lit"));
+    }
+    for (const auto& integrator : enumNames<Integrator>()) {
+        if (integrator.value == Integrator::Adaptive) continue;
+        Scene scene = plain;
+        scene.quality.integrator = integrator.value;
+        check(scene, integrator.name);
+    }
+    for (const std::size_t count : {2u, 8u, 9u, 31u, 64u, 256u}) {
+        Scene scene = plain;
+        scene.lights = std::vector<Light>(count, Light{});
+        check(scene, std::to_string(count) + " lights");
+        scene.quality.integrator = Integrator::Trapezoid;
+        check(scene, std::to_string(count) + " lights, trapezoid");
+    }
+    // A surface in the last part of the ray.
+    const VolumePtr ramp = rampVolume(volume->grid(), 0.0, 1.0 / 7.0);
+    for (const Mode mode : {Mode::Isosurface, Mode::FirstHit}) {
+        Scene scene = plain;
+        scene.mode = mode;
+        scene.volumes.front().transferFunction =
+            TransferFunction1D{"", "", {{0.99, kOrange, 0.0}, {0.99, kOrange, 1.0}}};
+        scene.volumes.front().isovalue = 0.99;
+        scene.lights = std::vector<Light>(64, Light{});
+        scene.camera.pose->heightMm = 0.5;
+        scene.quality.stepMm = finestStepMm(scene, *ramp, gpu().limits());
+        EXPECT_EQ(drawRay(scene, ramp).a, 1.0) << name(mode);
+    }
 }
 
 TEST_F(Sampling, EarlyTerminationStaysWithinItsBound) {

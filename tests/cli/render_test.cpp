@@ -97,9 +97,9 @@ TEST_F(Render, TheSampleIsThere) {
 }
 
 TEST_F(Render, CtrlCEndsItSoonAndLeavesNoPicture) {
-    // 16 megapixels with 30000 samples each: minutes on any machine of today, while a tile takes some
+    // 16 megapixels with 18000 samples each: minutes on any machine of today, while a tile takes some
     // milliseconds.
-    writeBallScene("long.json", R"(, "quality": {"stepVoxels": 0.001, "earlyTermination": 0})");
+    writeBallScene("long.json", R"(, "quality": {"stepVoxels": 0.0015, "earlyTermination": 0})");
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome = run({"render", "long.json", "-o", "long.png", "--size", "4096x4096"}, 1000);
     const auto took = std::chrono::steady_clock::now() - start;

@@ -125,13 +125,13 @@ TEST_F(RendererTest, ARayOfMoreTurnsThanTheDriverGivesIsRefusedNotCutShort) {
     const double limit = renderer.limits().maxLoopTurns;
     EXPECT_GE(limit, 60000.0);
     if (limit > 1e8) return;  // this driver counts on
-    // The longest ray of 24 voxels is 24 sqrt(3) mm; unlit rays take four samples a turn, lit ones two turns
-    // a sample.
+    // The longest ray of 24 voxels is 24 sqrt(3) mm; unlit rays take four samples a turn, lit ones three
+    // turns a sample.
     const double longest = 24.0 * std::sqrt(3.0);
     scene.quality.earlyTermination = 0.0;
     for (const bool lit : {false, true}) {
         if (lit) scene.lights->push_back(Light{});
-        const double most = lit ? limit / 2.0 : 4.0 * limit;
+        const double most = lit ? limit / 3.0 : 4.0 * limit;
         scene.picture.size = {2, 2};
         scene.quality.stepMm = longest / (0.98 * most);
         const auto fine = renderer.render(scene, {m_volume});

@@ -67,7 +67,8 @@ TEST(Resample, TheLowPassRemovesWhatWouldAlias) {
     EXPECT_GE(amplitude(*resampledBy(*cosine(0.4), ResampleMethod::Sinc, 2.0)), 0.9);
 }
 
-/// Half-width 8 against the cosine itself. The Hann window's transition is 2/8 of a cycle wide about 1/2.
+/// Half-width 8 against the cosine itself. Its kernel passes 1 - 3.5e-4 at 0.2 cycles, and 3.1e-4, 2.9e-5,
+/// ... of the images at 0.8, 1.2, ...: 7e-4 together.
 TEST(Resample, TheSincReproducesABandLimitedCosine) {
     const VolumePtr fine = resampledBy(*cosine(0.2), ResampleMethod::Sinc, 3.0);
     for (int m = 3 * 20; m < 3 * (kLength - 20); ++m)
