@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/check.h"
+
 namespace pellucid::renderer {
 
 namespace {
@@ -24,7 +26,7 @@ Scene reduced(const Scene& scene, int reduction) {
 /// The scene with a quarter of the step and nothing else that is known to be inexact.
 Scene comparison(const Scene& scene, const Plan& plan) {
     Scene better = scene;
-    better.quality.stepMm = 0.25 * plan.stepMm;
+    better.quality.stepMm = kComparisonStep * plan.stepMm;
     better.quality.earlyTermination = 0.0;
     better.quality.accumulation = Accumulation::Float32;
     better.quality.jitter = false;
@@ -33,6 +35,22 @@ Scene comparison(const Scene& scene, const Plan& plan) {
 }
 
 }  // namespace
+
+PictureError pictureError(const ImageF& a, const ImageF& b) {
+    PELLUCID_CHECK(a.size == b.size);
+    PictureError error;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const double apart = std::abs(static_cast<double>(a.pixels[i][channel]) -
+                                          static_cast<double>(b.pixels[i][channel]));
+            error.max = std::max(error.max, apart);
+            sum += apart * apart;
+        }
+    }
+    error.rmse = std::sqrt(sum / (3.0 * static_cast<double>(std::max<std::size_t>(a.pixels.size(), 1))));
+    return error;
+}
 
 Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const ImageF* picture,
                                     int reduction, const DrawScene& draw) {
@@ -55,16 +73,9 @@ Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const 
     const auto better = draw(comparison(probe, plan));
     if (!better) return tl::unexpected(better.error());
     constexpr double kErrorPerDifference = 1.15;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < better->pixels.size(); ++i) {
-        for (int channel = 0; channel < 3; ++channel) {
-            const double apart = std::abs(static_cast<double>(picture->pixels[i][channel]) -
-                                          static_cast<double>(better->pixels[i][channel]));
-            estimate.maxError = std::max(estimate.maxError, kErrorPerDifference * apart);
-            sum += kErrorPerDifference * apart * kErrorPerDifference * apart;
-        }
-    }
-    estimate.rmse = std::sqrt(sum / (3.0 * static_cast<double>(better->pixels.size())));
+    const PictureError apart = pictureError(*picture, *better);
+    estimate.maxError = kErrorPerDifference * apart.max;
+    estimate.rmse = kErrorPerDifference * apart.rmse;
     estimate.probedPixels = static_cast<int>(better->pixels.size());
     estimate.method = fmt::format("compared with a quarter of the step on {} x {} pixels",
                                   probe.picture.size.x, probe.picture.size.y);

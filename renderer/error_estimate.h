@@ -8,8 +8,18 @@
 
 namespace pellucid::renderer {
 
+/// The step of the picture compared with, in steps of the picture estimated.
+inline constexpr double kComparisonStep = 0.25;
+
 /// Draws the scene as it is given, without further estimates.
 using DrawScene = std::function<Result<ImageF>(const Scene& scene)>;
+
+/// Largest and root mean square difference over pixels and RGB, display units. Precondition: equal sizes.
+struct PictureError {
+    double max = 0.0;
+    double rmse = 0.0;
+};
+[[nodiscard]] PictureError pictureError(const ImageF& a, const ImageF& b);
 
 /// The error of a picture by comparison with a better one: the scene is drawn again with a quarter of the
 /// step and without what else may be wrong (early termination, low accumulation formats, the adaptive rule's

@@ -15,7 +15,7 @@ struct ErrorEstimate {
     double maxError = 0.0;  ///< Largest over the probed pixels, by comparison with a quarter of the step.
     double rmse = 0.0;      ///< Over the probed pixels and RGB.
     double terminationBound = 0.0;  ///< What early ray termination may add at most.
-    double tableBound = 0.0;        ///< What the transfer table may add at most for one sample's colour.
+    double tableBound = 0.0;        ///< What the transfer table may add at most for one voxel's colour.
     int probedPixels = 0;
     std::string method;  ///< A sentence: how it was found.
 };
@@ -35,6 +35,7 @@ struct Frame {
     FrameCost cost;
     std::optional<ErrorEstimate> error;  ///< When asked for.
     Plan plan;
+    std::optional<Quality> chosen;  ///< Where the scene's quality is automatic: what it was drawn with.
     bool preview = false;  ///< Drawn with a quickly made table; the same scene drawn again has the exact one.
 };
 

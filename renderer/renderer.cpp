@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "renderer/automatic_quality.h"
 #include "renderer/error_estimate.h"
 #include "renderer/gpu/gl_state_scope.h"
 #include "renderer/gpu/gpu_context.h"
@@ -89,6 +90,14 @@ struct Renderer::State {
     double maxLoopTurns;
     bool preview = false;  // the last picture used a quickly made table
 
+    /// The last automatic choice and what it was made for, whatever the view: errors hardly change with it.
+    struct Choice {
+        Scene look;
+        std::weak_ptr<const Volume> volume;
+        Quality quality;
+    };
+    std::optional<Choice> choice;
+
     explicit State(GpuContext own)
         : context(std::move(own)),
           raycast(isSoftware(glText(GL_RENDERER))),
@@ -100,6 +109,15 @@ struct Renderer::State {
                           const RenderOptions& options);
     Result<ImageF> drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
                             const RenderOptions& options, FrameCost& cost);
+    /// Draws what is stated; the scene is complete and its quality not automatic.
+    Result<Frame> drawStated(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                             const RenderOptions& options);
+    /// Chooses the quality, draws, and chooses finer ones as long as the estimate is above the tolerance.
+    Result<Frame> drawAutomatic(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                const RenderOptions& options);
+    Result<Plan> planFor(const Scene& scene, const std::vector<VolumePtr>& volumes) const;
+    /// The same, unless its error could not be estimated since the device refuses the shorter steps for that.
+    Result<Plan> planWithEstimate(const Scene& scene, const std::vector<VolumePtr>& volumes) const;
     DeviceLimits limits() const {
         return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes, maxLoopTurns};
     }
@@ -178,6 +196,98 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, c
     return image;
 }
 
+Result<Plan> Renderer::State::planFor(const Scene& scene, const std::vector<VolumePtr>& volumes) const {
+    std::vector<VolumeFacts> facts;
+    for (std::size_t i = 0; i < volumes.size(); ++i)
+        facts.push_back(factsOf(*volumes[i], i < scene.volumes.size() ? scene.volumes[i].component : 0));
+    return makePlan(scene, facts, limits());
+}
+
+Result<Plan> Renderer::State::planWithEstimate(const Scene& scene,
+                                               const std::vector<VolumePtr>& volumes) const {
+    Scene finer = scene;
+    finer.quality.stepVoxels *= kComparisonStep;
+    if (auto plan = planFor(finer, volumes); !plan) return plan;
+    return planFor(scene, volumes);
+}
+
+Result<Frame> Renderer::State::drawStated(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                          const RenderOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    auto plan = planFor(scene, volumes);
+    if (!plan) return tl::unexpected(plan.error());
+    Frame frame;
+    auto image = drawOnce(scene, *plan, volumes.front(), options, frame.cost);
+    if (!image) return tl::unexpected(image.error());
+    frame.image = std::move(*image);
+    frame.preview = preview;
+    frame.cost.wallMs = msSince(start);
+    if (options.estimateError) {
+        const auto draw = [&](const Scene& probe) -> Result<ImageF> {
+            auto probePlan = planFor(probe, volumes);
+            if (!probePlan) return tl::unexpected(probePlan.error());
+            FrameCost unwatched;
+            return drawOnce(probe, *probePlan, volumes.front(), options, unwatched);
+        };
+        auto estimate = estimateError(scene, *plan, options.estimateReduction > 1 ? nullptr : &frame.image,
+                                      options.estimateReduction, draw);
+        if (!estimate) return tl::unexpected(estimate.error());
+        frame.error = std::move(*estimate);
+    }
+    frame.plan = std::move(*plan);
+    return frame;
+}
+
+Result<Frame> Renderer::State::drawAutomatic(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                             const RenderOptions& options) {
+    constexpr std::size_t kMostAttempts = 8;
+    const auto start = std::chrono::steady_clock::now();
+    Scene look = scene;
+    look.camera = Camera{};
+    look.picture = Picture{};
+    if (auto plan = planFor(scene, volumes); !plan) return tl::unexpected(plan.error());
+    if (!choice || choice->volume.lock() != volumes.front() || !(choice->look == look)) {
+        const auto draw = [&](const Scene& probe) -> Result<TimedImage> {
+            auto plan = planWithEstimate(probe, volumes);
+            if (!plan) return tl::unexpected(plan.error());
+            FrameCost cost;
+            auto image = drawOnce(probe, *plan, volumes.front(), options, cost);
+            if (!image) return tl::unexpected(image.error());
+            return TimedImage{std::move(*image), cost.gpuMs};
+        };
+        auto quality = chooseQuality(scene, draw);
+        if (!quality) return tl::unexpected(quality.error());
+        choice = Choice{look, volumes.front(), *quality};
+    }
+    RenderOptions estimated = options;
+    estimated.estimateError = true;
+    // The largest error may be at any pixel.
+    if (scene.quality.toleranceNorm == ErrorNorm::Max) estimated.estimateReduction = 1;
+    Scene stated = scene;
+    std::vector<Attempt> attempts;
+    while (true) {
+        stated.quality = choice->quality;
+        const double beforeMs = msSince(start);
+        auto frame = drawStated(stated, volumes, estimated);
+        if (!frame) return frame;
+        attempts.push_back({choice->quality, errorIn(scene.quality.toleranceNorm, *frame->error)});
+        if (!meetsTolerance(scene.quality, *frame->error) && attempts.size() < kMostAttempts) {
+            stated.quality = refined(attempts);
+            // Devices refuse rays of too many samples; half the step may still be possible.
+            if (!planWithEstimate(stated, volumes))
+                stated.quality.stepVoxels = 0.5 * choice->quality.stepVoxels;
+            if (planWithEstimate(stated, volumes)) {
+                choice->quality = stated.quality;
+                continue;
+            }
+        }
+        frame->cost.prepareMs += beforeMs;
+        frame->cost.wallMs += beforeMs;
+        frame->chosen = choice->quality;
+        return frame;
+    }
+}
+
 Renderer::Renderer(std::unique_ptr<State> state) : m_state(std::move(state)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -197,41 +307,14 @@ Result<Renderer> Renderer::inCurrentContext() {
 
 Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>& volumes,
                                const RenderOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
     m_state->context.makeCurrent();
     std::optional<GlStateScope> restore;
     if (!m_state->context.isOwn()) restore.emplace();
 
     const Scene full = isComplete(scene) ? scene : completed(scene, volumes);
-    const auto planFor = [&](const Scene& wanted) {
-        std::vector<VolumeFacts> facts;
-        for (std::size_t i = 0; i < volumes.size(); ++i)
-            facts.push_back(
-                factsOf(*volumes[i], i < wanted.volumes.size() ? wanted.volumes[i].component : 0));
-        return makePlan(wanted, facts, m_state->limits());
-    };
-    auto plan = planFor(full);
-    if (!plan) return tl::unexpected(plan.error());
-    Frame frame;
-    auto image = m_state->drawOnce(full, *plan, volumes.front(), options, frame.cost);
-    if (!image) return tl::unexpected(image.error());
-    frame.image = std::move(*image);
-    frame.preview = m_state->preview;
-    frame.cost.wallMs = msSince(start);
-    if (options.estimateError) {
-        const auto draw = [&](const Scene& probe) -> Result<ImageF> {
-            auto probePlan = planFor(probe);
-            if (!probePlan) return tl::unexpected(probePlan.error());
-            FrameCost unwatched;
-            return m_state->drawOnce(probe, *probePlan, volumes.front(), options, unwatched);
-        };
-        auto estimate = estimateError(full, *plan, options.estimateReduction > 1 ? nullptr : &frame.image,
-                                      options.estimateReduction, draw);
-        if (!estimate) return tl::unexpected(estimate.error());
-        frame.error = std::move(*estimate);
-    }
-    frame.plan = std::move(*plan);
-    return frame;
+    if (full.quality.automatic && full.mode != Mode::Slice)
+        return m_state->drawAutomatic(full, volumes, options);
+    return m_state->drawStated(full, volumes, options);
 }
 
 const WorkCounts& Renderer::workCounts() const {

@@ -37,6 +37,13 @@ std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>() {
 }
 
 template <>
+std::span<const EnumName<ErrorNorm>> enumNames<ErrorNorm>() {
+    using enum ErrorNorm;
+    static constexpr std::array<EnumName<ErrorNorm>, 2> kNames{{{Rmse, "rmse"}, {Max, "max"}}};
+    return kNames;
+}
+
+template <>
 std::span<const EnumName<Filter>> enumNames<Filter>() {
     using enum Filter;
     static constexpr std::array<EnumName<Filter>, 8> kNames{

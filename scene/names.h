@@ -12,6 +12,7 @@ namespace pellucid {
 enum class Accumulation;
 enum class AnatomicalView;
 enum class CompositingSpace;
+enum class ErrorNorm;
 enum class Filter;
 enum class Integrator;
 enum class LightKind;
@@ -27,7 +28,7 @@ struct EnumName {
 };
 
 /// Every enumerator of E in the order of its declaration; this is the one place where their names are
-/// written. Defined for the nine enumerations above.
+/// written. Defined for the enumerations above.
 template <class E>
 [[nodiscard]] std::span<const EnumName<E>> enumNames();
 
@@ -52,6 +53,8 @@ template <>
 std::span<const EnumName<AnatomicalView>> enumNames<AnatomicalView>();
 template <>
 std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>();
+template <>
+std::span<const EnumName<ErrorNorm>> enumNames<ErrorNorm>();
 template <>
 std::span<const EnumName<Filter>> enumNames<Filter>();
 template <>

@@ -64,6 +64,9 @@ enum class Integrator {
     Adaptive            ///< IntegralFunctions with steps chosen to meet toleranceGreyLevels.
 };
 
+/// What must stay below a tolerance: the root mean square over pixels and RGB, or the largest error anywhere.
+enum class ErrorNorm { Rmse, Max };
+
 /// Precision in which colour and opacity of a ray are accumulated. The lower ones are for comparison: faint
 /// media stall.
 enum class Accumulation { Float32, Half, EightBit };
@@ -89,9 +92,13 @@ struct Quality {
     Integrator integrator = Integrator::Exponential;
     Accumulation accumulation = Accumulation::Float32;
     bool jitter = false;  ///< Ray starts are shifted within a step by blue noise, the same in every picture.
-    /// Largest error the adaptive integrator steps for, in grey levels (1/255 of what is shown), > 0; 1 when
-    /// unset.
+    /// The error asked for, in grey levels (1/255 of what is shown), > 0; 1 when unset. The adaptive
+    /// integrator keeps every ray below it, automatic the picture.
     std::optional<double> toleranceGreyLevels;
+    ErrorNorm toleranceNorm = ErrorNorm::Rmse;  ///< What automatic measures.
+    /// Step, integrator and early termination are chosen when drawn: the cheapest that keep the picture's
+    /// error below the tolerance. Those stated here are where a plan made without drawing stands.
+    bool automatic = false;
     bool dither = false;
     bool operator==(const Quality&) const = default;
 };

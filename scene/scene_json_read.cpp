@@ -116,8 +116,11 @@ Camera readCamera(const json& value, const std::string& pointer, JsonComplaints&
 Quality readQuality(const json& value, const std::string& pointer, JsonComplaints& complaints) {
     const JsonObject object(value, pointer, complaints,
                             {"stepVoxels", "stepMm", "earlyTermination", "integrator", "accumulation",
-                             "jitter", "toleranceGreyLevels", "dither"});
+                             "jitter", "toleranceGreyLevels", "toleranceNorm", "automatic", "dither"});
     Quality quality;
+    // Who states an error and nothing else leaves the rest to the program.
+    quality.automatic = object.find("toleranceGreyLevels") && !object.find("integrator") &&
+                        !object.find("stepVoxels") && !object.find("stepMm");
     object.read("stepVoxels", quality.stepVoxels);
     object.read("stepMm", quality.stepMm);
     object.read("earlyTermination", quality.earlyTermination);
@@ -125,6 +128,8 @@ Quality readQuality(const json& value, const std::string& pointer, JsonComplaint
     object.readName("accumulation", quality.accumulation);
     object.read("jitter", quality.jitter);
     object.read("toleranceGreyLevels", quality.toleranceGreyLevels);
+    object.readName("toleranceNorm", quality.toleranceNorm);
+    object.read("automatic", quality.automatic);
     object.read("dither", quality.dither);
     return quality;
 }

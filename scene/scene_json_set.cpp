@@ -61,8 +61,11 @@ Result<json*> step(json& parent, const std::string& key, const std::string& poin
 }
 
 /// Two ways to write one fact: setting one replaces the other.
-void removeAlternative(json& parent, const std::string& key) {
+void replaceAlternative(json& parent, const std::string& key) {
     if (!parent.is_object()) return;
+    // As when read from a file: an error asked for lets the program choose, a step or integrator does not.
+    if (key == "toleranceGreyLevels") parent["automatic"] = parent.value("integrator", "") != "adaptive";
+    if (key == "stepVoxels" || key == "stepMm" || key == "integrator") parent.erase("automatic");
     if (key == "preset") parent.erase("transferFunction");
     if (key == "opacity") parent.erase("extinction");
 }
@@ -90,7 +93,7 @@ Result<Scene> withSetting(const Scene& scene, std::string_view dottedPath, std::
         parent->erase(keys->back());  // Back to the default, or to what follows from the data.
     } else {
         *place = std::move(*wanted);
-        removeAlternative(*parent, keys->back());
+        replaceAlternative(*parent, keys->back());
     }
     return sceneFromJson(document);
 }

@@ -166,6 +166,10 @@ Json write(const Quality& quality, bool full) {
     writer.named("accumulation", quality.accumulation, ordinary.accumulation);
     writer.plain("jitter", quality.jitter, ordinary.jitter);
     writer.number("toleranceGreyLevels", quality.toleranceGreyLevels);
+    writer.named("toleranceNorm", quality.toleranceNorm, ordinary.toleranceNorm);
+    // Its default depends on the other members, so it is written wherever it could be in doubt.
+    writer.plain("automatic", quality.automatic,
+                 quality.automatic || quality.toleranceGreyLevels ? !quality.automatic : ordinary.automatic);
     writer.plain("dither", quality.dither, ordinary.dither);
     return writer.take();
 }

@@ -9,7 +9,9 @@
 #include "app/cli/cli.h"
 #include "app/cli/console.h"
 #include "io/image_file.h"
+#include "renderer/automatic_quality.h"
 #include "renderer/renderer.h"
+#include "scene/names.h"
 
 namespace pellucid::app {
 
@@ -52,6 +54,17 @@ std::string errorText(const std::optional<renderer::ErrorEstimate>& error) {
                        greyLevels(error->rmse), greyLevels(error->maxError), error->probedPixels);
 }
 
+/// What was chosen for a scene that states an error and leaves the rest open; empty for others.
+std::string choiceText(const renderer::Frame& frame, const Quality& asked) {
+    if (!frame.chosen || !frame.error) return {};
+    const bool isMet = renderer::meetsTolerance(asked, *frame.error);
+    return fmt::format("chosen: {}, steps of {:.3g} voxels; the tolerance of {:g} grey levels {} is {}\n",
+                       name(frame.chosen->integrator), frame.chosen->stepVoxels,
+                       asked.toleranceGreyLevels.value_or(1.0),
+                       asked.toleranceNorm == ErrorNorm::Max ? "anywhere" : "RMSE",
+                       isMet ? "met" : "NOT met: the estimate allows for its own uncertainty");
+}
+
 }  // namespace
 
 bool isPictureName(const fs::path& file) {
@@ -79,6 +92,7 @@ int makePicture(const PictureJob& job) {
     const double drawMs = millisecondsSince(drawStart);
 
     clearProgress();
+    fmt::print("{}", choiceText(*frame, loaded->scene.quality));
     for (const fs::path& file : job.outputs) {
         if (const Result<void> written = write(file, frame->image, loaded->scene); !written) {
             return report(written.error());

@@ -67,6 +67,7 @@ void VolumeView::refresh() {
     m_askedScene = scene;
     m_isFinal = false;
     scene.picture.size = interactiveSize();
+    scene.quality.automatic = false;  // choosing takes longer than a picture
     // The picture's shape decides how the volume is framed; the small picture's is rounded, so it gets the
     // full one's.
     scene.camera.pose =

@@ -68,9 +68,10 @@ Result<void> checkSamples(const Plan& plan, const DeviceLimits& limits) {
 TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
     const auto& item = scene.volumes.front();
     PELLUCID_CHECK(item.transferFunction.has_value() && scene.unitLengthMm.has_value());
-    const double stepInUnits = plan.stepMm / *scene.unitLengthMm * scene.densityScale;
+    // Not over a step: the errors of many small steps add up to those of a long one.
+    const double voxelInUnits = smallestSpacingMm(facts.grid) / *scene.unitLengthMm * scene.densityScale;
     return layoutTable(inCompositingSpace(*item.transferFunction, plan.features.space),
-                       reachableValues(facts.physicalRange, item.filter), stepInUnits);
+                       reachableValues(facts.physicalRange, item.filter), voxelInUnits);
 }
 
 void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
@@ -103,6 +104,15 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
                                   static_cast<std::uint64_t>(size) * 16,
                                   fmt::format("running integrals at {} values", size)});
     }
+}
+
+std::string automaticText(const Quality& quality) {
+    if (!quality.automatic) return {};
+    return fmt::format(
+        "integrator and step are chosen when drawn, for an error of at most {:g} grey levels {}; shown is "
+        "what is stated",
+        quality.toleranceGreyLevels.value_or(1.0),
+        quality.toleranceNorm == ErrorNorm::Max ? "anywhere" : "RMSE");
 }
 
 }  // namespace
@@ -146,6 +156,7 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     if (plan.features.lights > kMaxLights)
         return fail(ErrorCode::TooLarge, fmt::format("the scene has {} lights; at most {} are allowed",
                                                      plan.features.lights, kMaxLights));
+    if (scene.mode != Mode::Slice) plan.automatic = automaticText(scene.quality);
     plan.stepMm = stepMm(scene.quality, facts.grid);
     plan.samplesPerRay =
         scene.mode == Mode::Slice ? 1.0 : std::ceil(2.0 * radiusMm(facts.grid) / plan.stepMm);

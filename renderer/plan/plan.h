@@ -59,7 +59,7 @@ struct TableLayout {
     int size = 0;
     double worstError =
         0.0;  ///< Largest difference between the table, linearly interpolated, and the function: opacity or
-              ///< associated colour of one step. Exact: it occurs at a control point.
+              ///< associated colour of one voxel's length. Exact: it occurs at a control point.
     bool operator==(const TableLayout&) const = default;
 };
 
@@ -74,6 +74,7 @@ struct Plan {
     /// Of the transfer table; size 0 without one. Where the function is pre-integrated, lo and hi are the
     /// values it is needed for.
     TableLayout table;
+    std::string automatic;  ///< What is chosen only when drawn, a sentence; empty: nothing is.
     double stepMm = 0.0;
     double samplesPerRay = 0.0;          ///< Upper bound: volume diagonal / step.
     double earlyTerminationBound = 0.0;  ///< Error bound in display units; 0 when rays never stop early.

@@ -30,6 +30,7 @@ std::string planText(const Plan& plan) {
             fmt::format("  {:<15} {:<22} {:>10}  {}\n", row.name, row.kind, sizeText(row.bytes), row.reason);
     text += "left out\n";
     for (const auto& row : plan.leftOut) text += fmt::format("  {:<15} {}\n", row.what, row.reason);
+    if (!plan.automatic.empty()) text += plan.automatic + "\n";
     text += fmt::format("step {:g} mm, at most {:.0f} samples a ray\n", plan.stepMm, plan.samplesPerRay);
     if (plan.earlyTerminationBound > 0.0)
         text += fmt::format("early termination changes a pixel by at most {:.2g} ({:.2f} grey levels)\n",
@@ -57,6 +58,7 @@ nlohmann::ordered_json planJson(const Plan& plan) {
     list("leftOut", plan.leftOut, [](const LeftOutRow& row) {
         return Json{{"what", row.what}, {"reason", row.reason}};
     });
+    if (!plan.automatic.empty()) json["automatic"] = plan.automatic;
     json["stepMm"] = plan.stepMm;
     json["samplesPerRay"] = plan.samplesPerRay;
     json["earlyTerminationBound"] = plan.earlyTerminationBound;

@@ -14,22 +14,22 @@ namespace pellucid::renderer {
 namespace {
 
 constexpr int kMaxEntries = 16384;  // GL_MAX_TEXTURE_SIZE guaranteed by OpenGL 4.5
-constexpr double kWanted = 1.0 / 4096.0;
+constexpr double kWanted = 1.0 / 16384.0;
 
 OpticalSample interpolated(const OpticalSample& a, const OpticalSample& b, double f) {
     return {a.color * (1.0 - f) + b.color * f, a.extinction * (1.0 - f) + b.extinction * f};
 }
 
-double difference(const OpticalSample& a, const OpticalSample& b, double stepInUnits) {
-    const double alphaA = -std::expm1(-a.extinction * stepInUnits);
-    const double alphaB = -std::expm1(-b.extinction * stepInUnits);
+double difference(const OpticalSample& a, const OpticalSample& b, double voxelInUnits) {
+    const double alphaA = -std::expm1(-a.extinction * voxelInUnits);
+    const double alphaB = -std::expm1(-b.extinction * voxelInUnits);
     double worst = std::abs(alphaA - alphaB);
     for (int channel = 0; channel < 3; ++channel)
         worst = std::max(worst, std::abs(alphaA * a.color[channel] - alphaB * b.color[channel]));
     return worst;
 }
 
-double worstError(const TransferFunction1D& function, double lo, double hi, int size, double stepInUnits) {
+double worstError(const TransferFunction1D& function, double lo, double hi, int size, double voxelInUnits) {
     if (!(hi > lo)) return 0.0;
     const double spacing = (hi - lo) / (size - 1);
     double worst = 0.0;
@@ -40,7 +40,7 @@ double worstError(const TransferFunction1D& function, double lo, double hi, int 
         const auto table = interpolated(evaluate(function, lo + i * spacing),
                                         evaluate(function, lo + (i + 1) * spacing), x - i);
         // The point itself covers both sides of a step: each point of a pair at one value is visited.
-        worst = std::max(worst, difference(table, {point.color, point.extinction}, stepInUnits));
+        worst = std::max(worst, difference(table, {point.color, point.extinction}, voxelInUnits));
     }
     return worst;
 }
@@ -58,7 +58,7 @@ std::vector<int> candidates(double lo, double hi) {
 
 }  // namespace
 
-TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, double stepInUnits) {
+TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, double voxelInUnits) {
     TableLayout layout;
     layout.lo = std::max(values.lo, function.points.front().value);
     layout.hi = std::min(values.hi, function.points.back().value);
@@ -74,9 +74,10 @@ TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, d
     }
     double best = std::numeric_limits<double>::infinity();
     for (int size : candidates(layout.lo, layout.hi)) {
-        const double error = worstError(function, layout.lo, layout.hi, size, stepInUnits);
-        if (error < best) {
-            best = error;
+        const double error = worstError(function, layout.lo, layout.hi, size, voxelInUnits);
+        const double area = error / (size - 1);
+        if (area < best) {
+            best = area;
             layout.size = size;
             layout.worstError = error;
         }

@@ -10,10 +10,12 @@
 
 namespace pellucid::renderer {
 
-/// The smallest table whose worst error is below 1/4096 (a sixteenth of a grey level), at most 16384 entries;
-/// among those too coarse, the best. `values` is the physical range the filter can produce.
+/// The smallest table whose worst error is below 1/16384 (a sixty-fourth of a grey level a voxel), at most
+/// 16384 entries; among those too coarse (at a jump all are), the one with the least error times the width
+/// over which it is made. `values` is the physical range the filter can produce, `voxelInUnits` a voxel's
+/// length in the function's unit length, times the density scale.
 [[nodiscard]] TableLayout layoutTable(const TransferFunction1D& function, ValueRange values,
-                                      double stepInUnits);
+                                      double voxelInUnits);
 
 /// The function with control-point colours decoded to light-linear when that is the compositing space.
 [[nodiscard]] TransferFunction1D inCompositingSpace(const TransferFunction1D& function,

@@ -75,6 +75,17 @@ TEST(Plan, NumbersDoNotChangeFeatures) {
     EXPECT_EQ(featuresOf(scene), features);
 }
 
+/// The errors of many short steps add up to those of few long ones: the table must not get coarser.
+TEST(Plan, TheTransferTableDoesNotDependOnTheStep) {
+    Scene scene = rampScene();
+    scene.volumes.front().transferFunction =
+        TransferFunction1D{"", "", {{0.1, {1, 1, 1}, 0.0}, {99.37, {1, 1, 1}, 2.0}, {900, {1, 1, 1}, 0.5}}};
+    scene.quality.stepVoxels = 2.0;
+    const TableLayout coarse = planOf(scene).table;
+    scene.quality.stepVoxels = 0.01;
+    EXPECT_EQ(planOf(scene).table, coarse);
+}
+
 TEST(Plan, WhatCannotMatterIsDropped) {
     Scene scene = rampScene(Mode::Mip);
     scene.lights->push_back(Light{});

@@ -53,7 +53,7 @@ TEST(TransferTable, IntegerControlPointsInIntegerRangeAreExact) {
         "HU",
         {{-1000, {0, 0, 0}, 0}, {-599, {1, 0, 0}, 0.3}, {123, {0, 1, 0}, 2.0}, {3000, {1, 1, 1}, 1.0}}};
     const auto layout = layoutTable(function, {-1024, 3071}, 1.0);
-    EXPECT_LE(layout.worstError, 1.0 / 4096.0);
+    EXPECT_LE(layout.worstError, 1.0 / 16384.0);
     EXPECT_LE(layout.size, 4096);
 }
 

@@ -180,6 +180,8 @@ Scene randomScene(std::mt19937_64& random) {
     scene.quality.accumulation = make.anyOf<Accumulation>();
     scene.quality.jitter = make.coin();
     if (make.coin()) scene.quality.toleranceGreyLevels = make.positive();
+    scene.quality.toleranceNorm = make.anyOf<ErrorNorm>();
+    scene.quality.automatic = make.coin();
     scene.quality.dither = make.coin();
     if (make.coin()) scene.picture.size = {make.integer(1, 16384), make.integer(1, 16384)};
     if (make.coin()) scene.picture.background = make.color();

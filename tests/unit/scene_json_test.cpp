@@ -164,6 +164,26 @@ TEST(WithSetting, SetsOneMember) {
     }
 }
 
+/// Who states an error and nothing else leaves step and integrator to the program; who states one of those
+/// does not.
+TEST(WithSetting, AnErrorAskedForLetsTheProgramChoose) {
+    const auto automatic = [](std::initializer_list<std::pair<const char*, const char*>> settings) {
+        Scene scene;
+        for (const auto& [path, value] : settings) scene = withSetting(scene, path, value).value();
+        return scene.quality.automatic;
+    };
+    EXPECT_FALSE(automatic({}));
+    EXPECT_TRUE(automatic({{"quality.toleranceGreyLevels", "2"}}));
+    EXPECT_FALSE(automatic({{"quality.toleranceGreyLevels", "2"}, {"quality.stepVoxels", "1"}}));
+    EXPECT_FALSE(automatic({{"quality.integrator", "adaptive"}, {"quality.toleranceGreyLevels", "2"}}));
+    EXPECT_FALSE(automatic({{"quality.toleranceGreyLevels", "2"}, {"quality.automatic", "false"}}));
+    const auto read = [](const char* text) { return sceneFromText(text).value().quality.automatic; };
+    EXPECT_TRUE(read(R"({"pellucid": 1, "quality": {"toleranceGreyLevels": 2}})"));
+    EXPECT_FALSE(read(R"({"pellucid": 1, "quality": {"toleranceGreyLevels": 2, "stepMm": 1}})"));
+    EXPECT_FALSE(read(R"({"pellucid": 1, "quality": {"toleranceGreyLevels": 2, "automatic": false}})"));
+    EXPECT_TRUE(read(R"({"pellucid": 1, "quality": {"stepMm": 1, "automatic": true}})"));
+}
+
 TEST(WithSetting, NullGoesBackToTheDefault) {
     Scene scene;
     scene.unitLengthMm = 2.0;

@@ -157,6 +157,7 @@ TEST(SceneSchema, ListsOfNamesAreThoseOfTheCode) {
                                                                    {"projection", namesOf<Projection>()},
                                                                    {"integrator", namesOf<Integrator>()},
                                                                    {"accumulation", namesOf<Accumulation>()},
+                                                                   {"toleranceNorm", namesOf<ErrorNorm>()},
                                                                    {"view", namesOf<AnatomicalView>()},
                                                                    {"preset", presets}};
     std::size_t lists = 0;
