@@ -9,7 +9,7 @@
 #include "io/load.h"
 #include "renderer/automatic_quality.h"
 #include "scene/names.h"
-#include "tests/accuracy/gpu_fixture.h"
+#include "tests/accuracy/estimate_judge.h"
 
 namespace pellucid::test {
 namespace {
@@ -48,14 +48,6 @@ protected:
         }
     }
 };
-
-Scene sceneIn(Mode mode, bool lit) {
-    Scene scene;
-    scene.mode = mode;
-    scene.lights.emplace();
-    if (lit) scene.lights->push_back(Light{});
-    return scene;
-}
 
 TEST_F(Automatic, MeetsTheToleranceOnScansAndSyntheticFields) {
     const auto torso = io::loadVolume({PELLUCID_SOURCE_DIR "/resources/sample/ct-torso.nii.gz"});
