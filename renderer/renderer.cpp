@@ -16,6 +16,7 @@
 #include "renderer/gpu/loop_limit.h"
 #include "renderer/gpu/program_cache.h"
 #include "renderer/passes/raycast_pass.h"
+#include "renderer/plan/skipping.h"
 
 namespace pellucid::renderer {
 
@@ -107,7 +108,10 @@ struct Renderer::State {
     Result<const GlProgram*> program(const Plan& plan);
     FrameTables tablesFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts,
                           const RenderOptions& options);
-    Result<ImageF> drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
+    Result<ResourceStore::Leaps*> leapsFor(const Scene& scene, Plan& plan, const VolumePtr& volume,
+                                           const VolumeTexture& texture, const Progress& progress);
+    /// `plan` learns what the volume's blocks say.
+    Result<ImageF> drawOnce(const Scene& scene, Plan& plan, const VolumePtr& volume,
                             const RenderOptions& options, FrameCost& cost);
     /// Draws what is stated; the scene is complete and its quality not automatic.
     Result<Frame> drawStated(const Scene& scene, const std::vector<VolumePtr>& volumes,
@@ -157,16 +161,34 @@ FrameTables Renderer::State::tablesFor(const Scene& scene, const Plan& plan, con
     return tables;
 }
 
-Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, const VolumePtr& volume,
+/// Where the scene can show; null when the plan does not ask. Leaves out of the plan what turns out not to
+/// pay.
+Result<ResourceStore::Leaps*> Renderer::State::leapsFor(const Scene& scene, Plan& plan,
+                                                        const VolumePtr& volume, const VolumeTexture& texture,
+                                                        const Progress& progress) {
+    if (plan.features.skipping == Skipping::None) return nullptr;
+    const auto& item = scene.volumes.front();
+    const VolumeFacts facts = factsOf(*volume, item.component);
+    auto leaps =
+        store.leaps(volume, item.component, item.filter, texture, shownValues(scene, plan, facts), progress);
+    if (!leaps) return leaps;
+    refineSkipping(plan, (*leaps)->occupancy.facts());
+    return leaps;
+}
+
+Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const VolumePtr& volume,
                                          const RenderOptions& options, FrameCost& cost) {
     const auto start = std::chrono::steady_clock::now();
     preview = false;
     const auto& item = scene.volumes.front();
-    auto program_ = program(plan);
-    if (!program_) return tl::unexpected(program_.error());
     auto texture = store.volume(volume, item.component, options.progress);
     if (!texture) return tl::unexpected(texture.error());
-    const FrameTables tables = tablesFor(scene, plan, factsOf(*volume, item.component), options);
+    auto leaps = leapsFor(scene, plan, volume, **texture, options.progress);
+    if (!leaps) return tl::unexpected(leaps.error());
+    auto program_ = program(plan);
+    if (!program_) return tl::unexpected(program_.error());
+    FrameTables tables = tablesFor(scene, plan, factsOf(*volume, item.component), options);
+    if (*leaps != nullptr) tables.occupancy = &(*leaps)->occupancy;
     const Uniforms uniforms = raycastUniforms(scene, plan, volume->grid(), **texture, tables, maxLoopTurns);
     auto target = store.target(targetSize(scene.picture.size));
     if (!target) return tl::unexpected(target.error());
@@ -179,6 +201,7 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, const Plan& plan, c
     if (tables.integrals != nullptr) inputs.segmentTable = tables.integrals->texture.id();
     inputs.blueNoise = plan.features.jitter ? store.blueNoise().id() : 0;
     inputs.filterWeights = item.filter == Filter::TricubicBSplineLut ? store.filterWeights().id() : 0;
+    inputs.leapField = plan.features.skipping == Skipping::Leaps ? store.leapField(**leaps).id() : 0;
     inputs.lightsBlock = plan.features.lit ? store.lights(lightBlock(scene, volume->grid())).id() : 0;
     inputs.interpolates = item.filter != Filter::Nearest;
     inputs.target = *target;

@@ -34,6 +34,8 @@ struct WorkCounts {
     int programsCompiled = 0;  ///< From text.
     int programsFromDisk = 0;  ///< Driver binaries.
     int frames = 0;
+    int blockRanges = 0;  ///< Of a volume's blocks.
+    int occupancies = 0;  ///< Of the blocks under a transfer function.
     bool operator==(const WorkCounts&) const = default;
 };
 

@@ -100,6 +100,9 @@ struct Quality {
     /// error below the tolerance. Those stated here are where a plan made without drawing stands.
     bool automatic = false;
     bool dither = false;
+    /// Rays pass over blocks of voxels in which nothing can show. The picture is the same without; the switch
+    /// is for comparison.
+    bool skipEmpty = true;
     bool operator==(const Quality&) const = default;
 };
 

@@ -114,9 +114,10 @@ Camera readCamera(const json& value, const std::string& pointer, JsonComplaints&
 }
 
 Quality readQuality(const json& value, const std::string& pointer, JsonComplaints& complaints) {
-    const JsonObject object(value, pointer, complaints,
-                            {"stepVoxels", "stepMm", "earlyTermination", "integrator", "accumulation",
-                             "jitter", "toleranceGreyLevels", "toleranceNorm", "automatic", "dither"});
+    const JsonObject object(
+        value, pointer, complaints,
+        {"stepVoxels", "stepMm", "earlyTermination", "integrator", "accumulation", "jitter",
+         "toleranceGreyLevels", "toleranceNorm", "automatic", "dither", "skipEmpty"});
     Quality quality;
     // Who states an error and nothing else leaves the rest to the program.
     quality.automatic = object.find("toleranceGreyLevels") && !object.find("integrator") &&
@@ -131,6 +132,7 @@ Quality readQuality(const json& value, const std::string& pointer, JsonComplaint
     object.readName("toleranceNorm", quality.toleranceNorm);
     object.read("automatic", quality.automatic);
     object.read("dither", quality.dither);
+    object.read("skipEmpty", quality.skipEmpty);
     return quality;
 }
 

@@ -171,6 +171,7 @@ Json write(const Quality& quality, bool full) {
     writer.plain("automatic", quality.automatic,
                  quality.automatic || quality.toleranceGreyLevels ? !quality.automatic : ordinary.automatic);
     writer.plain("dither", quality.dither, ordinary.dither);
+    writer.plain("skipEmpty", quality.skipEmpty, ordinary.skipEmpty);
     return writer.take();
 }
 

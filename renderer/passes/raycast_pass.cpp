@@ -79,6 +79,10 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
         glBindTextureUnit(1 + i, tables[i]);
         glBindSampler(1 + i, m_linear.id());
     }
+    if (inputs.leapField != 0) {
+        glBindTextureUnit(5, inputs.leapField);
+        glBindSampler(5, m_nearest.id());
+    }
     if (inputs.lightsBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 0, inputs.lightsBlock);
     glBindFramebuffer(GL_FRAMEBUFFER, inputs.target->framebuffer.id());
     glViewport(0, 0, inputs.target->size.x, inputs.target->size.y);

@@ -20,6 +20,7 @@ struct RaycastInputs {
     GLuint segmentTable = 0;   ///< Pre-integration or integral table; 0: none.
     GLuint blueNoise = 0;      ///< 0: none.
     GLuint filterWeights = 0;  ///< 0: none.
+    GLuint leapField = 0;      ///< 0: none.
     GLuint lightsBlock = 0;    ///< 0: none.
     bool interpolates = true;  ///< The volume's sampler is linear.
     const ResourceStore::Target* target = nullptr;

@@ -91,6 +91,16 @@ void addTables(Uniforms& uniforms, const Plan& plan, const VolumeTexture& volume
     }
 }
 
+void addSkipping(Uniforms& uniforms, const Grid& grid, const Occupancy& occupancy) {
+    const glm::dvec3 textureFromBlock = double(kBlockEdge) / glm::dvec3(grid.size);
+    const bool nothing = occupancy.occupied == 0;
+    uniforms.emplace_back(
+        "boxLo", nothing ? glm::vec3(1.0f) : glm::vec3(glm::dvec3(occupancy.boxLo) * textureFromBlock));
+    uniforms.emplace_back(
+        "boxHi", nothing ? glm::vec3(0.0f) : glm::vec3(glm::dvec3(occupancy.boxHi) * textureFromBlock));
+    uniforms.emplace_back("blocksFromTexture", glm::vec3(1.0 / textureFromBlock));
+}
+
 /// The step, and for the adaptive integrator the step it starts from and never exceeds.
 void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan, double maxLoopTurns) {
     constexpr double kShortest = 1.0 / 64.0;  // of a step; what is left there is a jump that no step resolves
@@ -158,6 +168,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
             static_cast<float>(extinctionFromOpacity(scene.hitOpacity) / *scene.unitLengthMm * (1.0 - 1e-6)));
     }
     addTables(uniforms, plan, volume, tables);
+    if (tables.occupancy != nullptr) addSkipping(uniforms, grid, *tables.occupancy);
     // The sRGB curve is 12.92 times steeper in the dark than light-linear values.
     const double steepest = (linear ? 12.92 : 1.0) * brightestReflection(scene);
     uniforms.emplace_back("terminationTransmittance",
@@ -168,6 +179,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     uniforms.emplace_back("integralTable", 2);
     uniforms.emplace_back("blueNoise", 3);
     uniforms.emplace_back("filterWeights", 4);
+    uniforms.emplace_back("leapField", 5);
     return uniforms;
 }
 

@@ -8,6 +8,13 @@
 
 namespace pellucid::renderer {
 
+/// What is done about samples that cannot show. The picture is the same.
+enum class Skipping {
+    None,
+    Box,   ///< Rays are cut to the box around all blocks that can show.
+    Leaps  ///< And pass over empty blocks within it.
+};
+
 /// The structure of a scene: everything that selects shader text, and nothing that is a mere number.
 /// Two scenes with equal features use the same program.
 struct Features {
@@ -22,6 +29,7 @@ struct Features {
     bool jitter = false;                                ///< Where rays have steps of one length.
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
+    Skipping skipping = Skipping::None;  ///< Set by makePlan: it depends on the data too.
     bool operator==(const Features&) const = default;
 };
 

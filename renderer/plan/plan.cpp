@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/plan/preintegration.h"
+#include "renderer/plan/skipping.h"
 #include "renderer/plan/stages.h"
 #include "renderer/plan/transfer_table.h"
 #include "renderer/plan/volume_format.h"
@@ -118,7 +119,7 @@ std::string automaticText(const Quality& quality) {
 }  // namespace
 
 VolumeFacts factsOf(const Volume& volume, int component) {
-    return {volume.grid(), volume.type(), volume.physicalRange(component)};
+    return {volume.grid(), volume.type(), volume.physicalRange(component), volume.mapping().slope < 0.0};
 }
 
 double turnsPerSample(const Plan& plan) {
@@ -188,6 +189,7 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
              fmt::format("{} light{}", plan.features.lights, plan.features.lights == 1 ? "" : "s")});
     for (const auto& pass : plan.passes) plan.totalBytes += pass.bytes;
     for (const auto& resource : plan.resources) plan.totalBytes += resource.bytes;
+    planSkipping(plan, scene, facts, limits);
     return plan;
 }
 

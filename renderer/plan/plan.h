@@ -17,6 +17,7 @@ struct VolumeFacts {
     Grid grid;
     VoxelType type = VoxelType::UInt8;
     ValueRange physicalRange;
+    bool descending = false;  ///< Physical values fall where stored ones rise (negative slope).
     bool operator==(const VolumeFacts&) const = default;
 };
 [[nodiscard]] VolumeFacts factsOf(const Volume& volume, int component);

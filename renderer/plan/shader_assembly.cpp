@@ -57,23 +57,29 @@ private:
         mark(1);
         std::istringstream lines(shaderFile(path));
         std::string line;
-        bool keep = true;
+        std::vector<bool> conditions;  // of the blocks that the line stands in
+        const auto keep = [&] {
+            return std::find(conditions.begin(), conditions.end(), false) == conditions.end();
+        };
+        const auto open = [&](bool holds, int next) {
+            conditions.push_back(holds);
+            if (keep()) mark(next);
+        };
         for (int number = 1; std::getline(lines, line); ++number) {
             const std::size_t start = std::min(line.find_first_not_of(' '), line.size());
             const std::string_view content = std::string_view(line).substr(start);
             if (content.starts_with("//@when ")) {
-                keep = has(content.substr(8));
-                if (keep) mark(number + 1);
+                open(has(content.substr(8)), number + 1);
             } else if (content.starts_with("//@unless ")) {
-                keep = !has(content.substr(10));
-                if (keep) mark(number + 1);
+                open(!has(content.substr(10)), number + 1);
             } else if (content == "//@end") {
-                keep = true;
-                mark(number + 1);
+                PELLUCID_CHECK(!conditions.empty());
+                conditions.pop_back();
+                if (keep()) mark(number + 1);
             } else if (content == "//@stages") {
                 for (const auto& row : m_rows) append(fmt::format("{}/{}.glsl", row.stage, row.variant));
                 mark(number + 1);
-            } else if (keep) {
+            } else if (keep()) {
                 m_out << line << '\n';
             }
         }

@@ -30,6 +30,8 @@ std::span<const StageVariant> stageTable() {
         {"reconstruct", "trilinear_exact", {"volumeTexture"}, {}, {}},
         {"reconstruct", "tricubic_bspline_deboor", {"volumeTexture", "volumeSize"}, {}, {}},
         {"reconstruct", "tricubic_bspline_lut", {"volumeTexture", "filterWeights"}, {}, {}},
+        {"bounds", "box", {"boxLo", "boxHi"}, {}, {}},
+        {"leap", "cubes", {"leapField", "blocksFromTexture"}, {}, {}},
         {"classify", "tf1d", {"transferTable", "tableFromValue", "extinctionPerMm"}, {}, {}},
         {"classify", "window", {"windowFromValue"}, {}, {}},
         {"integrate", "exponential", {}, {}, {"classify"}},
@@ -230,6 +232,10 @@ StageChoice chooseStages(const Features& features) {
     auto& leftOut = choice.leftOut;
     rows.push_back(rayRow(features.projection));
     rows.push_back(reconstructRow(features.filter));
+    if (features.skipping != Skipping::None)
+        rows.push_back({"bounds", "box", "samples outside the box of what can show are not taken"});
+    if (features.skipping == Skipping::Leaps)
+        rows.push_back({"leap", "cubes", "blocks in which nothing can show are passed over"});
     if (!usesTransferFunction(features.mode)) {
         rows.push_back({"classify", "window", "the mode shows values through the window"});
         leftOut.push_back({"transfer table", "the mode shows values through the window"});

@@ -68,8 +68,8 @@ TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, d
         layout.lo = values.lo;
     if (!(layout.hi > layout.lo)) {
         // Nothing varies within reach: all values lie at, before or behind one point.
-        const double value =
-            std::clamp(values.lo, function.points.front().value, function.points.back().value);
+        const double value = std::clamp(values.lo, std::min(layout.lo, function.points.front().value),
+                                        function.points.back().value);
         return {value, value, 2, 0.0};
     }
     double best = std::numeric_limits<double>::infinity();

@@ -16,6 +16,8 @@ namespace {
 // Four views with a preview and an error probe each use no more functions and sizes than this at a time.
 constexpr std::size_t kKeptTables = 16;
 constexpr std::size_t kKeptTargets = 8;
+// A picture, its preview and its error probe; each may take a byte for 64 voxels twice.
+constexpr std::size_t kKeptLeaps = 4;
 
 /// Moves a found entry to the front; returns false when there is none.
 template <class T, class Matches>
@@ -94,6 +96,53 @@ const IntegralTexture& ResourceStore::integrals(const TransferFunction1D& functi
                       [&](const TransferFunction1D& converted) {
                           return uploadIntegrals(converted, domain.lo, domain.hi, size);
                       });
+}
+
+Result<const BlockRanges*> ResourceStore::ranges(const VolumePtr& volume, int component, int voxels,
+                                                 const Progress& progress) {
+    m_ranges.remove_if([](const RangesEntry& entry) { return entry.volume.expired(); });
+    for (const auto& entry : m_ranges)
+        if (entry.component == component && entry.voxels == voxels && entry.volume.lock() == volume)
+            return &entry.ranges;
+    auto found = blockRanges(*volume, component, voxels, progress);
+    if (found.lo.empty()) return fail(ErrorCode::Cancelled, "the search for empty space was cancelled");
+    ++counts.blockRanges;
+    m_ranges.push_front({volume, component, voxels, std::move(found)});
+    return &m_ranges.front().ranges;
+}
+
+Result<ResourceStore::Leaps*> ResourceStore::leaps(const VolumePtr& volume, int component, Filter filter,
+                                                   const VolumeTexture& texture,
+                                                   const std::vector<ValueRange>& shown,
+                                                   const Progress& progress) {
+    m_leaps.remove_if([](const LeapsEntry& entry) { return entry.volume.expired(); });
+    const FilterReach reach = reachOf(filter);
+    const bool known = toFront(m_leaps, [&](const LeapsEntry& entry) {
+        return entry.component == component && entry.reach == reach && entry.volume.lock() == volume &&
+               entry.shown == shown;
+    });
+    if (known) return &m_leaps.front().leaps;
+    auto blocks = ranges(volume, component, reach.voxels, progress);
+    if (!blocks) return tl::unexpected(blocks.error());
+    std::vector<ValueRange> texels;
+    for (const ValueRange& range : shown) {
+        const double a = texture.texelFromPhysical(range.lo);
+        const double b = texture.texelFromPhysical(range.hi);
+        texels.push_back({std::min(a, b), std::max(a, b)});
+    }
+    ++counts.occupancies;
+    m_leaps.push_front({volume,
+                        component,
+                        reach,
+                        shown,
+                        {occupancyOf(**blocks, ShownQuanta(texels), reach.overshoot), GlTexture()}});
+    if (m_leaps.size() > kKeptLeaps) m_leaps.pop_back();
+    return &m_leaps.front().leaps;
+}
+
+const GlTexture& ResourceStore::leapField(Leaps& leaps) {
+    if (!leaps.field) leaps.field = uploadLeapField(leaps.occupancy);
+    return leaps.field;
 }
 
 const GlTexture& ResourceStore::blueNoise() {

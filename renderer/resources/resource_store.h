@@ -5,7 +5,9 @@
 #include <list>
 #include <memory>
 
+#include "renderer/plan/shown_values.h"
 #include "renderer/renderer.h"
+#include "renderer/resources/leap_texture.h"
 #include "renderer/resources/preintegration_texture.h"
 #include "renderer/resources/transfer_texture.h"
 #include "renderer/resources/volume_texture.h"
@@ -26,6 +28,16 @@ public:
                                                         const PreintegrationLayout& layout, bool wait);
     [[nodiscard]] const IntegralTexture& integrals(const TransferFunction1D& function, CompositingSpace space,
                                                    const TableLayout& domain, int size);
+    /// Where a volume's values in the closed intervals `shown` (physical, those of shownValues) occur.
+    /// Errors: Cancelled.
+    struct Leaps {
+        Occupancy occupancy;
+        GlTexture field;  ///< Empty until asked for by leapField.
+    };
+    [[nodiscard]] Result<Leaps*> leaps(const VolumePtr& volume, int component, Filter filter,
+                                       const VolumeTexture& texture, const std::vector<ValueRange>& shown,
+                                       const Progress& progress);
+    [[nodiscard]] const GlTexture& leapField(Leaps& leaps);
     [[nodiscard]] const GlTexture& blueNoise();
     [[nodiscard]] const GlTexture& filterWeights();
     /// A std140 block with the scene's lights; kept while the lights are the same.
@@ -54,7 +66,25 @@ private:
         CompositingSpace space = CompositingSpace::Display;
         Table table;
     };
+    /// Value ranges of a volume's blocks, as filters that read so many voxels need them.
+    struct RangesEntry {
+        std::weak_ptr<const Volume> volume;
+        int component = 0;
+        int voxels = 0;
+        BlockRanges ranges;
+    };
+    struct LeapsEntry {
+        std::weak_ptr<const Volume> volume;
+        int component = 0;
+        FilterReach reach;
+        std::vector<ValueRange> shown;
+        Leaps leaps;
+    };
+    [[nodiscard]] Result<const BlockRanges*> ranges(const VolumePtr& volume, int component, int voxels,
+                                                    const Progress& progress);
     std::list<VolumeEntry> m_volumes;
+    std::list<RangesEntry> m_ranges;
+    std::list<LeapsEntry> m_leaps;  // most recently used first
     std::list<FunctionTable<PreintegrationTexture>> m_preintegrations;
     std::list<FunctionTable<IntegralTexture>> m_integrals;
     GlTexture m_blueNoise;

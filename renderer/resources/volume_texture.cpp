@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
+
+#include "renderer/resources/texel.h"
 
 namespace pellucid::renderer {
 
@@ -15,31 +16,6 @@ namespace {
 /// Voxels a slab: converted and handed to the driver at once; small enough for the cache, large enough for
 /// few calls.
 constexpr std::int64_t kSlabVoxels = 1 << 20;
-
-/// A stored value as an R16 texel, exactly: u = texel / 65535 and stored = u * scale + offset of
-/// storedFromTexel().
-std::uint16_t texel16(std::uint8_t v) {
-    return static_cast<std::uint16_t>(v * 257);
-}
-std::uint16_t texel16(std::int8_t v) {
-    return static_cast<std::uint16_t>((v + 128) * 257);
-}
-std::uint16_t texel16(std::uint16_t v) {
-    return v;
-}
-std::uint16_t texel16(std::int16_t v) {
-    return static_cast<std::uint16_t>(v + 32768);
-}
-
-/// Everything else as float over its range.
-struct FloatTexel {
-    StoredFromTexel map;
-    template <class T>
-    float operator()(T v) const {
-        const double stored = static_cast<double>(v);
-        return std::isfinite(stored) ? static_cast<float>((stored - map.offset) / map.scale) : 0.0f;
-    }
-};
 
 template <class Texel, class T, class Convert>
 Result<void> uploadSlabs(const Volume& volume, int component, std::span<const T> voxels, GLuint texture,

@@ -47,6 +47,10 @@ std::vector<Features> coveringSet() {
                 scene.quality.jitter = half == 0;
                 all.push_back(featuresOf(scene));
             }
+    // What is skipped goes with everything that can be skipped in.
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].mode != Mode::Average && all[i].mode != Mode::Slice)
+            all[i].skipping = i % 3 == 0 ? Skipping::Box : Skipping::Leaps;
     return all;
 }
 

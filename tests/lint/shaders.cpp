@@ -12,7 +12,7 @@ namespace pellucid::lint {
 namespace {
 
 /// renderer/shaders/README.md: which stage implements which function.
-constexpr std::array<std::pair<const char*, const char*>, 11> kFunctions = {{{"makeRay", "ray"},
+constexpr std::array<std::pair<const char*, const char*>, 14> kFunctions = {{{"makeRay", "ray"},
                                                                              {"reconstruct", "reconstruct"},
                                                                              {"classify", "classify"},
                                                                              {"gradientMm", "gradient"},
@@ -22,6 +22,9 @@ constexpr std::array<std::pair<const char*, const char*>, 11> kFunctions = {{{"m
                                                                              {"composeSample", "compose"},
                                                                              {"composeEnd", "compose"},
                                                                              {"traverse", "traverse"},
+                                                                             {"occupiedSteps", "bounds"},
+                                                                             {"emptySamples", "leap"},
+                                                                             {"emptySegments", "leap"},
                                                                              {"encodePicture", "encode"}}};
 
 struct Word {
@@ -50,13 +53,17 @@ std::vector<Word> wordsOf(std::string_view code) {
 
 /// The stages of the //@when that hold at an offset.
 Names conditionsAt(std::string_view text, std::size_t offset) {
-    static constexpr std::string_view kWhen = "//@when ";
-    const std::string_view before = text.substr(0, offset);
-    const std::size_t when = before.rfind(kWhen);
-    const std::size_t end = before.rfind("//@end");
-    if (when == std::string_view::npos || (end != std::string_view::npos && end > when)) return {};
-    const std::string_view name = before.substr(when + kWhen.size());
-    return {std::string(name.substr(0, name.find_first_of(" \n")))};
+    std::vector<std::string> open;  // empty for //@unless
+    for (std::size_t at = text.find("//@"); at < offset; at = text.find("//@", at + 3)) {
+        const std::string_view line = text.substr(at, text.find('\n', at) - at);
+        if (line.starts_with("//@when "))
+            open.emplace_back(line.substr(8));
+        else if (line.starts_with("//@unless "))
+            open.emplace_back();
+        else if (line == "//@end" && !open.empty())
+            open.pop_back();
+    }
+    return {open.begin(), open.end()};
 }
 
 struct Declared {

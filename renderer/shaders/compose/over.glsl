@@ -32,10 +32,19 @@ bool composeSample(float u, vec3 p, float t, float lengthMm) {
 void composeLit(vec3 start, float tEnter, float extent, float segmentMm) {
     int count = max(int(ceil(extent / segmentMm)), 1);
     int next = 0;
+    //@when bounds
+    ivec2 occupied = occupiedSteps(tEnter, segmentMm, count);
+    next = occupied.x;
+    count = occupied.y;
+    //@end
     while (next < count) {
         vec4 optical = vec4(0.0);
         float middle = 0.0;
         while (optical.a <= 0.0 && next < count) {
+            //@when leap
+            vec3 ahead = start + (float(next) + 0.5) * segmentMm * ray.texDirection;
+            next = min(next + emptySamples(ahead, segmentMm), count - 1);
+            //@end
             float from = float(next) * segmentMm;
             float lengthMm = max(min(segmentMm, extent - from), 0.0);
             middle = from + 0.5 * lengthMm;

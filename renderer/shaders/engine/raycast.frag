@@ -15,6 +15,7 @@ uniform mat4 textureFromRender;
 uniform vec3 background;       // in the compositing space; zero for a transparent picture
 
 Ray ray;
+bool inVolume;  // the ray meets the volume, whether or not samples are taken
 
 //@stages
 
@@ -43,8 +44,12 @@ void main() {
     ray.texOrigin = (textureFromRender * vec4(ray.origin, 1.0)).xyz;
     ray.texDirection = mat3(textureFromRender) * ray.direction;
     composeBegin();
+    //@when leap
+    leapBegin();
+    //@end
     float tEnter, tExit;
-    if (intersectVolume(tEnter, tExit)) traverse(tEnter, tExit);
+    inVolume = intersectVolume(tEnter, tExit);
+    if (inVolume) traverse(tEnter, tExit);
     vec4 result = composeEnd();
     vec3 color = result.rgb + (1.0 - result.a) * background;
     //@when encode

@@ -5,7 +5,19 @@ void traverse(float tEnter, float tExit) {
     vec3 start = ray.texOrigin + tEnter * ray.texDirection;
     float extent = tExit - tEnter;
     int count = max(int(ceil(extent / stepMm)), 1);
-    for (int i = 0; i <= count; ++i) {
+    int i = 0;
+    //@when bounds
+    ivec2 occupied = occupiedSteps(tEnter, stepMm, count);
+    if (occupied.y == 0) return;
+    i = occupied.x;
+    count = occupied.y;
+    //@end
+    for (; i <= count; ++i) {
+        //@when leap
+        // The last sample that cannot be on the surface is taken: the surface is searched behind it.
+        vec3 next = start + min(float(i) * stepMm, extent) * ray.texDirection;
+        i = min(i + max(emptySamples(next, stepMm) - 1, 0), count);
+        //@end
         float along = min(float(i) * stepMm, extent);
         vec3 p = start + along * ray.texDirection;
         if (composeSample(reconstruct(p), p, tEnter + along, 0.0)) break;

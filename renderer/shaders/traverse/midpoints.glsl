@@ -18,7 +18,17 @@ void traverse(float tEnter, float tExit) {
     //@end
     //@unless shade
     int count = max(int(ceil(extent / stepMm)), 1);
-    for (int i = 0; i < count; ++i) {
+    int i = 0;
+    //@when bounds
+    ivec2 occupied = occupiedSteps(tEnter, stepMm, count);
+    i = occupied.x;
+    count = occupied.y;
+    //@end
+    for (; i < count; ++i) {
+        //@when leap
+        vec3 next = start + (float(i) + 0.5) * stepMm * ray.texDirection;
+        i = min(i + emptySamples(next, stepMm), count - 1);
+        //@end
         float from = float(i) * stepMm;
         float lengthMm = max(min(stepMm, extent - from), 0.0);
         float middle = from + 0.5 * lengthMm;

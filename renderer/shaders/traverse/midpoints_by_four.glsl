@@ -1,5 +1,6 @@
 // The same samples as `midpoints`, four a turn without a condition between them: where a value is one fetch, the turn of the loop
 // costs a fifth of it (measured on llvmpipe; a GPU overlaps the four fetches). A ray that may end early is asked once a turn.
+// Leaps go over whole turns, so that the samples are grouped, and rays end, as they do without leaps.
 uniform float stepMm;
 
 void traverse(float tEnter, float tExit) {
@@ -18,9 +19,25 @@ void traverse(float tEnter, float tExit) {
     //@end
     //@unless shade
     int count = max(int(ceil(extent / stepMm)), 1);
-    vec3 advance = stepMm * ray.texDirection;
+    int whole = (count - 1) & ~3;
     int i = 0;
-    for (int whole = (count - 1) & ~3; i < whole; i += 4) {
+    //@when bounds
+    ivec2 occupied = occupiedSteps(tEnter, stepMm, count);
+    i = min(occupied.x & ~3, whole);
+    whole = min(whole, (occupied.y + 3) & ~3);
+    count = occupied.y;
+    //@end
+    vec3 advance = stepMm * ray.texDirection;
+    while (i < whole) {
+        //@when leap
+        int leap = 4;
+        while (leap > 0 && i < whole) {
+            leap = emptySamples(start + (float(i) + 0.5) * stepMm * ray.texDirection, stepMm) & ~3;
+            i += leap;
+        }
+        // Leapt to the end: the last four are taken in vain rather than asked for.
+        i = min(i, whole - 4);
+        //@end
         float middle = (float(i) + 0.5) * stepMm;
         vec3 a = start + middle * ray.texDirection;
         vec3 b = a + advance;
@@ -34,6 +51,7 @@ void traverse(float tEnter, float tExit) {
         composeSample(ub, b, tEnter + middle + stepMm, stepMm);
         composeSample(uc, c, tEnter + middle + 2.0 * stepMm, stepMm);
         if (composeSample(ud, d, tEnter + middle + 3.0 * stepMm, stepMm)) return;
+        i += 4;
     }
     for (; i < count; ++i) {
         float from = float(i) * stepMm;

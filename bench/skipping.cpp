@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+// What passing over empty space saves: each scene with and without, 512 x 512, whole frames from the call to
+// the pixels. The pictures of a pair are compared first; they must be the same bits.
+//
+//   skipping [--volume SCAN] [flags of Google Benchmark]
+//
+// Pairs are best read from --benchmark_repetitions=7 --benchmark_enable_random_interleaving=true
+// --benchmark_report_aggregates_only=true, processor time of all cores ("CPU").
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "accuracy/synthetic.h"
+#include "io/load.h"
+#include "renderer/renderer.h"
+
+namespace pellucid::bench {
+namespace {
+
+struct SkipCase {
+    std::string name;
+    VolumePtr volume;
+    Scene scene;
+};
+
+/// A smooth field without empty space.
+VolumePtr fog(int n) {
+    return accuracy::sampledVolume(axisAlignedGrid(glm::ivec3(n)), VoxelType::UInt16, [n](glm::ivec3 i) {
+        const glm::dvec3 p = 6.0 * glm::dvec3(i) / static_cast<double>(n);
+        return 32768.0 + 14000.0 * (std::sin(p.x) * std::cos(1.3 * p.y) + std::sin(0.7 * p.z + p.x));
+    });
+}
+
+TransferFunction1D thinShells() {
+    TransferFunction1D function{"shells", "", {}};
+    for (const double value : {0.3, 0.5, 0.7}) {
+        const glm::dvec3 color(value, 1.0 - value, 0.6);
+        function.points.push_back({value - 0.02, color, 0.0});
+        function.points.push_back({value, color, 1.0});
+        function.points.push_back({value + 0.02, color, 0.0});
+    }
+    return function;
+}
+
+TransferFunction1D boneFunction() {
+    return {"bone",
+            "HU",
+            {{150.0, {0.8, 0.4, 0.3}, 0.0}, {300.0, {1.0, 0.9, 0.7}, 0.3}, {1200.0, {1, 1, 1}, 2.0}}};
+}
+
+void add(std::vector<SkipCase>& cases, const std::string& name, const VolumePtr& volume,
+         const std::optional<TransferFunction1D>& function, Mode mode = Mode::Composite) {
+    for (const Projection projection : {Projection::Orthographic, Projection::Perspective})
+        for (const bool lit : {false, true}) {
+            if (lit && !usesLights(mode)) continue;
+            Scene scene;
+            scene.volumes.emplace_back();
+            scene.volumes.front().transferFunction = function;
+            scene.mode = mode;
+            scene.lights = lit ? std::vector<Light>{Light{}} : std::vector<Light>{};
+            scene.picture.size = {512, 512};
+            scene.camera.projection = projection;
+            const Grid& grid = volume->grid();
+            const glm::dvec3 forward = glm::normalize(glm::dvec3(0.4, 1.0, -0.3));
+            scene.camera.pose = CameraPose{centreMm(grid) - 3.864 * radiusMm(grid) * forward,
+                                           centreMm(grid),
+                                           {0, 0, 1},
+                                           2.0 * radiusMm(grid)};
+            cases.push_back({name + (lit ? "/lit" : "/unlit") +
+                                 (projection == Projection::Orthographic ? "/orthographic" : "/perspective"),
+                             volume, completed(scene, {volume})});
+        }
+}
+
+std::vector<SkipCase> skipCases(const std::string& path) {
+    std::vector<SkipCase> cases;
+    const VolumePtr shells = accuracy::ctLikeShells(256);
+    add(cases, "marschner-lobb-128", accuracy::marschnerLobb(128), thinShells());
+    add(cases, "fog-256", fog(256),
+        TransferFunction1D{"fog", "", {{0.0, {0.3, 0.5, 0.9}, 0.001}, {65535.0, {1.0, 0.9, 0.6}, 0.03}}});
+    add(cases, "ct-shells-256", shells, boneFunction());
+    add(cases, "ct-shells-256-mip", shells, std::nullopt, Mode::Mip);
+    if (path.empty()) return cases;
+    const auto loaded = io::loadVolume({path});
+    if (loaded)
+        add(cases, (*loaded)->info().name, *loaded, std::nullopt);
+    else
+        std::fprintf(stderr, "%s\n", loaded.error().text().c_str());
+    return cases;
+}
+
+Result<renderer::Frame> draw(renderer::Renderer& renderer, const SkipCase& c, bool skip) {
+    Scene scene = c.scene;
+    scene.quality.skipEmpty = skip;
+    return renderer.render(scene, {c.volume});
+}
+
+void registerPair(renderer::Renderer& renderer, const SkipCase& c) {
+    for (const bool skip : {false, true}) {
+        const auto run = [&renderer, &c, skip](benchmark::State& state) {
+            const auto first = draw(renderer, c, skip);  // uploads and compiles
+            const auto other = draw(renderer, c, !skip);
+            if (!first || !other) return state.SkipWithError((first ? other : first).error().text().c_str());
+            if (first->image != other->image) return state.SkipWithError("the pictures differ");
+            for (auto _ : state) benchmark::DoNotOptimize(draw(renderer, c, skip));
+            state.counters["leaps"] = first->plan.features.skipping == renderer::Skipping::Leaps;
+            state.counters["box"] = first->plan.features.skipping != renderer::Skipping::None;
+        };
+        benchmark::RegisterBenchmark((c.name + (skip ? "/skipping" : "/all")).c_str(), run)
+            ->Unit(benchmark::kMillisecond)
+            ->MeasureProcessCPUTime();
+    }
+}
+
+}  // namespace
+}  // namespace pellucid::bench
+
+int main(int argc, char** argv) {
+    using namespace pellucid;
+    benchmark::Initialize(&argc, argv);
+    const std::string path = argc > 2 && std::string(argv[1]) == "--volume" ? argv[2] : "";
+    auto renderer = renderer::Renderer::headless();
+    if (!renderer) {
+        std::fprintf(stderr, "%s\n", renderer.error().text().c_str());
+        return 2;
+    }
+    const auto cases = bench::skipCases(path);
+    for (const auto& c : cases) bench::registerPair(*renderer, c);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

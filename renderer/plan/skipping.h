@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: Pellucid contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "renderer/plan/plan.h"
+
+namespace pellucid::renderer {
+
+/// Voxels along each edge of a block whose value range is known.
+inline constexpr int kBlockEdge = 4;
+
+/// Number of blocks along each axis; the last ones may be cut.
+[[nodiscard]] glm::ivec3 blockCount(glm::ivec3 voxels);
+
+/// What is known of the blocks once their values have been looked at.
+struct OccupancyFacts {
+    std::uint64_t blocks = 0;
+    std::uint64_t occupied = 0;   ///< In which something can show.
+    std::uint64_t boxBlocks = 0;  ///< In the box around those.
+};
+
+/// Chooses what is done about samples that cannot show, as far as it can be told without voxels, and lists it
+/// in the plan, or why it is left out. Precondition: the rest of the plan is complete.
+void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts, const DeviceLimits& limits);
+
+/// The same with the blocks known: what would not pay is left out.
+void refineSkipping(Plan& plan, const OccupancyFacts& occupancy);
+
+}  // namespace pellucid::renderer
