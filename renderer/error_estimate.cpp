@@ -23,7 +23,14 @@ Scene reduced(const Scene& scene, int reduction) {
     return probe;
 }
 
-/// The scene with a quarter of the step and nothing else that is known to be inexact.
+}  // namespace
+
+Integrator withoutTable(Integrator integrator) {
+    const bool isTabulated =
+        integrator == Integrator::Preintegrated2D || integrator == Integrator::Preintegrated3D;
+    return isTabulated ? Integrator::IntegralFunctions : integrator;
+}
+
 Scene comparison(const Scene& scene, const Plan& plan) {
     Scene better = scene;
     better.quality.stepMm = kComparisonStep * plan.stepMm;
@@ -31,10 +38,9 @@ Scene comparison(const Scene& scene, const Plan& plan) {
     better.quality.accumulation = Accumulation::Float32;
     better.quality.jitter = false;
     better.quality.toleranceGreyLevels = 0.125 * scene.quality.toleranceGreyLevels.value_or(1.0);
+    better.quality.integrator = withoutTable(scene.quality.integrator);
     return better;
 }
-
-}  // namespace
 
 PictureError pictureError(const ImageF& a, const ImageF& b) {
     PELLUCID_CHECK(a.size == b.size);
@@ -52,12 +58,25 @@ PictureError pictureError(const ImageF& a, const ImageF& b) {
     return error;
 }
 
-Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const ImageF* picture,
-                                    int reduction, const DrawScene& draw) {
+ErrorEstimate errorBeside(const ImageF& better, const ImageF& picture, const Plan& plan) {
+    constexpr double kErrorPerDifference = 1.15;
+    const PictureError apart = pictureError(picture, better);
     ErrorEstimate estimate;
+    estimate.maxError = kErrorPerDifference * apart.max;
+    estimate.rmse = kErrorPerDifference * apart.rmse;
     estimate.terminationBound = plan.earlyTerminationBound;
     estimate.tableBound = plan.table.worstError;
+    estimate.probedPixels = static_cast<int>(better.pixels.size());
+    estimate.method =
+        fmt::format("compared with a quarter of the step on {} x {} pixels", better.size.x, better.size.y);
+    return estimate;
+}
+
+Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const ImageF* picture,
+                                    int reduction, const DrawScene& draw) {
     if (scene.mode == Mode::Slice) {
+        ErrorEstimate estimate;
+        estimate.terminationBound = plan.earlyTerminationBound;
         estimate.method = "a slice takes one sample a pixel and has no step";
         return estimate;
     }
@@ -72,14 +91,7 @@ Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const 
     }
     const auto better = draw(comparison(probe, plan));
     if (!better) return tl::unexpected(better.error());
-    constexpr double kErrorPerDifference = 1.15;
-    const PictureError apart = pictureError(*picture, *better);
-    estimate.maxError = kErrorPerDifference * apart.max;
-    estimate.rmse = kErrorPerDifference * apart.rmse;
-    estimate.probedPixels = static_cast<int>(better->pixels.size());
-    estimate.method = fmt::format("compared with a quarter of the step on {} x {} pixels",
-                                  probe.picture.size.x, probe.picture.size.y);
-    return estimate;
+    return errorBeside(*better, *picture, plan);
 }
 
 }  // namespace pellucid::renderer

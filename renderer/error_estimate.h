@@ -21,6 +21,15 @@ struct PictureError {
 };
 [[nodiscard]] PictureError pictureError(const ImageF& a, const ImageF& b);
 
+/// Running integrals in place of pre-integration, whose tables belong to one step and take longer to make
+/// than a picture that is only compared with; the limit is the same.
+[[nodiscard]] Integrator withoutTable(Integrator integrator);
+
+/// The scene with a quarter of the step and nothing else that is known to be inexact; `plan` is the scene's.
+[[nodiscard]] Scene comparison(const Scene& scene, const Plan& plan);
+/// The error of the picture of `plan`'s scene, of which `better` is the comparison's.
+[[nodiscard]] ErrorEstimate errorBeside(const ImageF& better, const ImageF& picture, const Plan& plan);
+
 /// The error of a picture by comparison with a better one: the scene is drawn again with a quarter of the
 /// step and without what else may be wrong (early termination, low accumulation formats, the adaptive rule's
 /// tolerance), and the difference times 1.15 is the estimate. For a rule of order 1, 2 or 4 the error

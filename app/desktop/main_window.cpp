@@ -15,6 +15,7 @@
 #include <QToolButton>
 #include <QUrl>
 
+#include "app/desktop/cost_text.h"
 #include "app/desktop/light_panel.h"
 #include "app/desktop/load_bar.h"
 #include "app/desktop/look_panel.h"
@@ -38,12 +39,6 @@ QString nameOf(const std::vector<std::filesystem::path>& paths) {
     const auto& path = paths.front();
     return QString::fromStdString(
         (path.has_filename() ? path.filename() : path.parent_path().filename()).string());
-}
-
-// Two digits for what is small, whole levels above that.
-QString greyLevels(double error) {
-    const double levels = error * 255.0;
-    return levels < 10.0 ? QString::number(levels, 'g', 2) : QString::number(levels, 'f', 0);
 }
 
 }  // namespace
@@ -115,7 +110,8 @@ void MainWindow::buildPanels() {
     column->addWidget(new LookPanel(m_document, content));
     column->addWidget(new WindowPanel(m_document, content));
     column->addWidget(new LightPanel(m_document, content));
-    column->addWidget(new QualityPanel(m_document, content));
+    m_qualityPanel = new QualityPanel(m_document, content);
+    column->addWidget(m_qualityPanel);
     column->addStretch(1);
     content->hide();  // Controls of nothing would only puzzle.
     connect(&m_document, &Document::replaced, content, &QWidget::show);
@@ -138,6 +134,7 @@ void MainWindow::buildStatusBar() {
     m_probe->setObjectName(QStringLiteral("probe"));
     m_cost = new QLabel(this);
     m_cost->setObjectName(QStringLiteral("cost"));
+    m_cost->setMinimumWidth(1);  // A long line must not hold the window wide.
     m_planButton = new QToolButton(this);
     m_planButton->setObjectName(QStringLiteral("planButton"));
     m_planButton->setText(tr("Plan..."));
@@ -207,18 +204,13 @@ void MainWindow::toggleMaximised(ViewFrame* frame) {
 void MainWindow::showCost(const ViewWidget* view, const RenderService::Reply& reply) {
     // The 3D view's numbers; a slice's only while it alone is shown.
     if (!reply.frame || (view != m_volumeView && m_volumeView->isVisible())) return;
-    const renderer::Frame& frame = *reply.frame;
-    QStringList parts{tr("%1 ms").arg(frame.cost.wallMs, 0, 'f', frame.cost.wallMs < 10.0 ? 1 : 0)};
-    if (frame.error)
-        parts += tr("error %1 (largest %2) grey levels")
-                     .arg(greyLevels(frame.error->rmse), greyLevels(frame.error->maxError));
-    parts += tr("%1 MB").arg(static_cast<double>(frame.plan.totalBytes) / 1e6, 0, 'f', 1);
-    parts += m_device;
-    m_cost->setText(parts.join(QStringLiteral("   |   ")));
+    if (reply.frame->chosen) m_qualityPanel->setChosen(*reply.frame->chosen);
+    m_cost->setText(costText(reply, smallestSpacingMm(m_document.volume().grid())));
     m_cost->setToolTip(
-        tr("Time of the last frame, estimated error (root mean square and largest over the probed pixels; "
-           "255 grey levels are the whole range), graphics "
-           "memory of the plan, device"));
+        tr("Size and time of the last picture; its estimated error (root mean square over all pixels, "
+           "and the largest; 255 grey levels are the whole range); the distance of samples on a ray and "
+           "how they are summed; graphics memory of the plan. Drawn by %1.")
+            .arg(m_device));
     m_planButton->setEnabled(true);
 }
 

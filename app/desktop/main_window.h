@@ -18,6 +18,7 @@ namespace pellucid::app {
 
 class LoadBar;
 class MessageBar;
+class QualityPanel;
 class SliceView;
 class ViewFrame;
 class ViewWidget;
@@ -93,6 +94,7 @@ private:
     Loader m_loader;
 
     MessageBar* m_messages = nullptr;
+    QualityPanel* m_qualityPanel = nullptr;
     LoadBar* m_loadBar = nullptr;
     QLabel* m_welcome = nullptr;
     QWidget* m_views = nullptr;

@@ -28,7 +28,7 @@ NumberControl::NumberControl(double lo, double hi, int decimals, QWidget* parent
     setRange(lo, hi, decimals);
 
     connect(m_slider, &QSlider::valueChanged, this, [this](int step) {
-        const double value = m_lo + (m_hi - m_lo) * step / kSliderSteps;
+        const double value = valueAt(static_cast<double>(step) / kSliderSteps);
         {
             const QSignalBlocker quiet(m_field);
             m_field->setValue(value);
@@ -65,13 +65,28 @@ void NumberControl::setSuffix(const QString& suffix) {
     m_field->setSuffix(suffix);
 }
 
+void NumberControl::setLogarithmic() {
+    m_isLogarithmic = true;
+    m_field->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+    showOnSlider(value());
+}
+
+double NumberControl::valueAt(double fraction) const {
+    return m_isLogarithmic ? m_lo * std::pow(m_hi / m_lo, fraction) : m_lo + (m_hi - m_lo) * fraction;
+}
+
+double NumberControl::fractionOf(double value) const {
+    if (m_hi <= m_lo) return 0.0;
+    return m_isLogarithmic ? std::log(value / m_lo) / std::log(m_hi / m_lo) : (value - m_lo) / (m_hi - m_lo);
+}
+
 double NumberControl::value() const {
     return m_field->value();
 }
 
 void NumberControl::showOnSlider(double value) {
     const QSignalBlocker quiet(m_slider);
-    const double fraction = m_hi > m_lo ? (value - m_lo) / (m_hi - m_lo) : 0.0;
+    const double fraction = fractionOf(value);
     // While the hand holds the slider it knows better than the rounded value.
     if (!m_slider->isSliderDown()) m_slider->setValue(static_cast<int>(std::lround(fraction * kSliderSteps)));
 }

@@ -21,6 +21,8 @@ public:
     void setRange(double lo, double hi, int decimals);
     void setValue(double value);
     void setSuffix(const QString& suffix);
+    /// Equal ways of the slider multiply the value by the same. Precondition: the range is above 0.
+    void setLogarithmic();
     [[nodiscard]] double value() const;
 
 Q_SIGNALS:
@@ -31,11 +33,14 @@ Q_SIGNALS:
 
 private:
     void showOnSlider(double value);
+    [[nodiscard]] double valueAt(double fraction) const;
+    [[nodiscard]] double fractionOf(double value) const;
 
     QSlider* m_slider;
     QDoubleSpinBox* m_field;
     double m_lo = 0.0;
     double m_hi = 1.0;
+    bool m_isLogarithmic = false;
 };
 
 }  // namespace pellucid::app

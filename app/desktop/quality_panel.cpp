@@ -10,6 +10,8 @@
 #include <QPushButton>
 
 #include "app/desktop/number_control.h"
+#include "renderer/refinement.h"
+#include "scene/names.h"
 
 namespace pellucid::app {
 
@@ -20,6 +22,34 @@ QColor shown(glm::dvec3 color) {
                             static_cast<float>(color.b));
 }
 
+constexpr int kByError = 0, kByStep = 1;  // Entries of m_unit.
+constexpr double kLeastLevels = 0.1, kMostLevels = 20.0;
+constexpr double kLeastStep = 0.01, kMostStep = 16.0;  // Voxels; what is chosen for an error lies in here.
+
+QString textOf(Integrator integrator) {
+    switch (integrator) {
+        case Integrator::Riemann:
+            return QualityPanel::tr("Riemann sum (historical)");
+        case Integrator::Exponential:
+            return QualityPanel::tr("Exponential");
+        case Integrator::Trapezoid:
+            return QualityPanel::tr("Trapezoid");
+        case Integrator::Simpson:
+            return QualityPanel::tr("Simpson");
+        case Integrator::GaussLegendre:
+            return QualityPanel::tr("Gauss-Legendre");
+        case Integrator::Preintegrated2D:
+            return QualityPanel::tr("Pre-integrated, one length");
+        case Integrator::Preintegrated3D:
+            return QualityPanel::tr("Pre-integrated, all lengths");
+        case Integrator::IntegralFunctions:
+            return QualityPanel::tr("Running integrals");
+        case Integrator::Adaptive:
+            break;
+    }
+    return QualityPanel::tr("Adaptive steps");
+}
+
 }  // namespace
 
 QualityPanel::QualityPanel(Document& document, QWidget* parent)
@@ -27,7 +57,11 @@ QualityPanel::QualityPanel(Document& document, QWidget* parent)
       m_document(document),
       m_form(new QFormLayout(this)),
       m_filter(new QComboBox(this)),
-      m_step(new NumberControl(0.05, 2.0, 2, this)),
+      m_unit(new QComboBox(this)),
+      m_tolerance(new NumberControl(kLeastLevels, kMostLevels, 1, this)),
+      m_norm(new QComboBox(this)),
+      m_step(new NumberControl(kLeastStep, kMostStep, 2, this)),
+      m_integrator(new QComboBox(this)),
       m_space(new QComboBox(this)),
       m_projection(new QComboBox(this)),
       m_fov(new NumberControl(5.0, 90.0, 0, this)),
@@ -35,44 +69,67 @@ QualityPanel::QualityPanel(Document& document, QWidget* parent)
       m_dither(new QCheckBox(tr("Dither to 8 bits"), this)) {
     setObjectName(QStringLiteral("qualityPanel"));
     m_filter->setObjectName(QStringLiteral("filter"));
+    m_unit->setObjectName(QStringLiteral("qualityUnit"));
+    m_tolerance->setObjectName(QStringLiteral("tolerance"));
+    m_norm->setObjectName(QStringLiteral("toleranceNorm"));
     m_step->setObjectName(QStringLiteral("step"));
+    m_integrator->setObjectName(QStringLiteral("integrator"));
     m_space->setObjectName(QStringLiteral("space"));
     m_projection->setObjectName(QStringLiteral("projection"));
     m_fov->setObjectName(QStringLiteral("fov"));
     m_background->setObjectName(QStringLiteral("background"));
     m_dither->setObjectName(QStringLiteral("dither"));
+    build();
+    connectEdits();
+    connectQuality();
+    connect(&document, &Document::sceneChanged, this, &QualityPanel::sync);
+    connect(&document, &Document::replaced, this, [this] { m_chosen.reset(); });
+}
+
+void QualityPanel::build() {
     m_filter->addItems({tr("Nearest voxel"), tr("Trilinear"), tr("Tricubic B-spline"), tr("Catmull-Rom"),
                         tr("Lanczos 3 (slow)"), tr("Trilinear in full precision"),
                         tr("Tricubic B-spline, recursive"), tr("Tricubic B-spline, weight table")});
+    m_unit->addItems({tr("By error"), tr("By step")});
+    m_norm->addItems({tr("On average (RMS)"), tr("Anywhere (maximum)")});
+    for (const auto& integrator : enumNames<Integrator>()) m_integrator->addItem(textOf(integrator.value));
     m_space->addItems({tr("As shown"), tr("Linear light")});
     m_projection->addItems({tr("Perspective"), tr("Orthographic")});
+    m_tolerance->setLogarithmic();
+    m_step->setLogarithmic();
+    m_fov->setSuffix(QString(QChar(0xb0)));
     m_filter->setToolTip(tr("How values between voxels are found, in slices and in 3D."));
+    m_unit->setToolTip(
+        tr("By error: say how wrong the picture may be; the cheapest settings that keep to it are found by "
+           "trying. By step: set them yourself."));
+    m_tolerance->setToolTip(
+        tr("The error allowed, in grey levels: 255 are the whole range, 1 is what 8 bits just show."));
+    m_norm->setToolTip(
+        tr("What must stay below: the root mean square over the picture, or every pixel. The second takes "
+           "longer, "
+           "since all pixels are measured."));
     m_step->setToolTip(tr("Distance of two samples on a ray, in units of the smallest voxel spacing."));
+    m_integrator->setToolTip(tr("How the light between two samples is summed (see equations.md)."));
     m_space->setToolTip(
         tr("As shown: colours are blended the way they look, as most programs do. Linear light: as light "
            "adds up."));
     m_form->addRow(tr("Interpolation"), m_filter);
+    m_form->addRow(tr("Quality"), m_unit);
+    m_form->addRow(tr("Grey levels"), m_tolerance);
+    m_form->addRow(tr("Measured"), m_norm);
     m_form->addRow(tr("Step (voxels)"), m_step);
+    m_form->addRow(tr("Integrator"), m_integrator);
     m_form->addRow(tr("Blending"), m_space);
     m_form->addRow(tr("Projection"), m_projection);
     m_form->addRow(tr("View angle"), m_fov);
     m_form->addRow(tr("Background"), m_background);
     m_form->addRow(m_dither);
-    m_fov->setSuffix(QString(QChar(0xb0)));
-    connectEdits();
-    connect(&document, &Document::sceneChanged, this, &QualityPanel::sync);
 }
 
 void QualityPanel::connectEdits() {
     connect(m_filter, &QComboBox::activated, this, [this](int index) {
         m_document.changeItem("Interpolation: " + m_filter->itemText(index).toStdString(), {},
                               [&](VolumeItem& item) { item.filter = static_cast<Filter>(index); });
-    });
-    connect(m_step, &NumberControl::edited, this, [this](double step) {
-        m_document.change("Step", "step", [&](Scene& scene) {
-            scene.quality.stepVoxels = step;
-            scene.quality.stepMm.reset();
-        });
     });
     connect(m_space, &QComboBox::activated, this, [this](int index) {
         m_document.change("Blending", {},
@@ -89,16 +146,51 @@ void QualityPanel::connectEdits() {
         m_document.change("Dither", {}, [&](Scene& scene) { scene.quality.dither = on; });
     });
     connect(m_background, &QPushButton::clicked, this, &QualityPanel::pickBackground);
-    connect(m_step, &NumberControl::editEnded, &m_document, &Document::endGesture);
     connect(m_fov, &NumberControl::editEnded, &m_document, &Document::endGesture);
+}
+
+void QualityPanel::connectQuality() {
+    connect(m_unit, &QComboBox::activated, this, &QualityPanel::chooseUnit);
+    connect(m_tolerance, &NumberControl::edited, this, [this](double levels) {
+        m_document.change("Error allowed", "error allowed",
+                          [&](Scene& scene) { scene.quality.toleranceGreyLevels = levels; });
+    });
+    connect(m_norm, &QComboBox::activated, this, [this](int index) {
+        m_document.change("Error measured: " + m_norm->itemText(index).toStdString(), {},
+                          [&](Scene& scene) { scene.quality.toleranceNorm = static_cast<ErrorNorm>(index); });
+    });
+    connect(m_step, &NumberControl::edited, this, [this](double step) {
+        m_document.change("Step", "step", [&](Scene& scene) {
+            scene.quality.stepVoxels = step;
+            scene.quality.stepMm.reset();
+        });
+    });
+    connect(m_integrator, &QComboBox::activated, this, [this](int index) {
+        m_document.change("Integrator: " + m_integrator->itemText(index).toStdString(), {},
+                          [&](Scene& scene) { scene.quality.integrator = static_cast<Integrator>(index); });
+    });
+    connect(m_tolerance, &NumberControl::editEnded, &m_document, &Document::endGesture);
+    connect(m_step, &NumberControl::editEnded, &m_document, &Document::endGesture);
+}
+
+void QualityPanel::chooseUnit(int index) {
+    if (index == kByError) {
+        m_document.change("Quality by error", {}, [](Scene& scene) {
+            scene.quality.automatic = true;
+            scene.quality.toleranceGreyLevels = scene.quality.toleranceGreyLevels.value_or(1.0);
+        });
+        return;
+    }
+    m_document.change("Quality by step", {}, [this](Scene& scene) {
+        // The picture stays as it is: what was chosen for the error is stated from now on.
+        if (scene.quality.automatic) scene.quality = renderer::statedQuality(scene.quality, m_chosen);
+    });
 }
 
 void QualityPanel::sync() {
     const Scene& scene = m_document.scene();
     m_filter->setCurrentIndex(static_cast<int>(m_document.item().filter));
-    m_step->setValue(scene.quality.stepMm
-                         ? *scene.quality.stepMm / smallestSpacingMm(m_document.volume().grid())
-                         : scene.quality.stepVoxels);
+    syncQuality();
     m_space->setCurrentIndex(static_cast<int>(scene.space));
     m_projection->setCurrentIndex(static_cast<int>(scene.camera.projection));
     m_fov->setValue(scene.camera.fovDeg);
@@ -109,6 +201,24 @@ void QualityPanel::sync() {
 
     m_form->setRowVisible(m_space, usesTransferFunction(scene.mode));
     m_form->setRowVisible(m_fov, scene.camera.projection == Projection::Perspective);
+}
+
+void QualityPanel::syncQuality() {
+    const Scene& scene = m_document.scene();
+    const Quality& quality = scene.quality;
+    m_unit->setCurrentIndex(quality.automatic ? kByError : kByStep);
+    m_tolerance->setValue(quality.toleranceGreyLevels.value_or(1.0));
+    m_norm->setCurrentIndex(static_cast<int>(quality.toleranceNorm));
+    m_step->setValue(quality.stepMm ? *quality.stepMm / smallestSpacingMm(m_document.volume().grid())
+                                    : quality.stepVoxels);
+    m_integrator->setCurrentIndex(static_cast<int>(quality.integrator));
+
+    const bool hasIntegrators = scene.mode == Mode::Composite || scene.mode == Mode::XRay;
+    const bool isAdaptive = hasIntegrators && quality.integrator == Integrator::Adaptive;
+    m_form->setRowVisible(m_tolerance, quality.automatic || isAdaptive);
+    m_form->setRowVisible(m_norm, quality.automatic);
+    m_form->setRowVisible(m_step, !quality.automatic);
+    m_form->setRowVisible(m_integrator, !quality.automatic && hasIntegrators);
 }
 
 void QualityPanel::pickBackground() {

@@ -15,27 +15,40 @@ namespace pellucid::app {
 
 class NumberControl;
 
-/// How exactly and against what: reconstruction, step, compositing space, projection, background.
+/// How exactly and against what: reconstruction, quality (as the error to keep below, or as step and
+/// integrator), compositing space, projection, background.
 class QualityPanel : public QGroupBox {
     Q_OBJECT
 
 public:
     explicit QualityPanel(Document& document, QWidget* parent = nullptr);
 
+    /// What the renderer chose for the error asked for. Quality by step starts from it.
+    void setChosen(const Quality& chosen) { m_chosen = chosen; }
+
 private:
+    void build();
     void connectEdits();
+    void connectQuality();
     void sync();
+    void syncQuality();
+    void chooseUnit(int index);
     void pickBackground();
 
     Document& m_document;
     QFormLayout* m_form;
     QComboBox* m_filter;
+    QComboBox* m_unit;
+    NumberControl* m_tolerance;
+    QComboBox* m_norm;
     NumberControl* m_step;
+    QComboBox* m_integrator;
     QComboBox* m_space;
     QComboBox* m_projection;
     NumberControl* m_fov;
     QPushButton* m_background;
     QCheckBox* m_dither;
+    std::optional<Quality> m_chosen;
 };
 
 }  // namespace pellucid::app

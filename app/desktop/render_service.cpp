@@ -41,7 +41,10 @@ std::uint64_t RenderService::request(Request request) {
         }
     }
     const int channel = request.channel;
-    m_waiting[channel] = std::make_unique<Job>(Job{number, std::move(request)});
+    std::optional<renderer::Refinement> refinement;
+    if (request.refines) refinement.emplace(request.scene, request.chosen);
+    m_waiting[channel] =
+        std::make_unique<Job>(Job{number, std::move(request), std::move(refinement), nullptr, {}});
     m_wake.notify_one();
     return number;
 }
@@ -71,13 +74,14 @@ void RenderService::work(const std::stop_token& stop) {
         }
         const Reply reply{job->request.channel, job->number, job->request.priority, nullptr, {},
                           made.error()};
-        if (release(std::move(job), false)) post(reply);
+        if (release(std::move(job), false, true)) post(reply);
     }
 }
 
 std::unique_ptr<RenderService::Job> RenderService::next(const std::stop_token& stop) {
     std::unique_lock lock(m_mutex);
-    if (!m_wake.wait(lock, stop, [this] { return !m_waiting.empty(); })) return nullptr;
+    m_wake.wait(lock, stop, [this] { return !m_waiting.empty(); });
+    if (stop.stop_requested()) return nullptr;
     const auto order = [](const auto& waiting) {
         return std::pair(waiting.second->request.priority, waiting.second->number);
     };
@@ -92,30 +96,41 @@ std::unique_ptr<RenderService::Job> RenderService::next(const std::stop_token& s
 void RenderService::draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, const std::stop_token& stop) {
     const Request& request = job->request;
     renderer::RenderOptions options;
-    options.estimateError = request.estimateError;
-    options.estimateReduction = 4;
+    options.allowPreview = request.priority == Priority::Interactive;
     options.progress = [this, &stop, priority = request.priority](double fraction, std::string_view) {
         return report(stop, priority, fraction);
     };
-    auto frame = drawer.render(request.scene, request.volumes, options);
+    auto frame =
+        drawer.render(job->refinement ? job->refinement->next() : request.scene, request.volumes, options);
     const bool wasStopped = !frame && frame.error().code == ErrorCode::Cancelled;
     Reply reply{request.channel, job->number, request.priority, nullptr, {}, std::nullopt};
-    if (frame) {
-        reply.picture = pictureOf(frame->image, request.scene);
-        reply.frame = std::make_shared<const renderer::Frame>(std::move(*frame));
+    if (!frame && !wasStopped && job->refinement && job->refinement->isMeasuring()) {
+        job->refinement->giveUp();
+        reply.frame = job->shown;
+        reply.picture = job->picture;
+    } else if (frame) {
+        const auto before = std::exchange(
+            job->shown, job->refinement ? job->refinement->take(std::move(*frame))
+                                        : std::make_shared<const renderer::Frame>(std::move(*frame)));
+        // The last step of a refinement measures a picture that is there already.
+        if (!before || before->image != job->shown->image)
+            job->picture = pictureOf(job->shown->image, request.scene);
+        reply.frame = job->shown;
+        reply.picture = job->picture;
+        reply.isFinal = !job->refinement || job->refinement->isDone();
     } else {
         reply.error = frame.error();
     }
-    if (release(std::move(job), wasStopped)) post(std::move(reply));
+    if (release(std::move(job), wasStopped, reply.isFinal)) post(std::move(reply));
 }
 
-bool RenderService::release(std::unique_ptr<Job> job, bool wasStopped) {
+bool RenderService::release(std::unique_ptr<Job> job, bool wasStopped, bool isDone) {
     const std::lock_guard lock(m_mutex);
     const Running running = *std::exchange(m_running, std::nullopt);
-    if (!wasStopped) return !running.stop || running.comeBack;
+    const bool isWanted = !running.stop || running.comeBack;
     // Its channel may have got a newer request meanwhile; that one counts.
-    if (running.comeBack) m_waiting.try_emplace(running.channel, std::move(job));
-    return false;
+    if (isWanted && (wasStopped || !isDone)) m_waiting.try_emplace(running.channel, std::move(job));
+    return isWanted && !wasStopped;
 }
 
 bool RenderService::report(const std::stop_token& stop, Priority priority, double fraction) {

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "renderer/refinement.h"
 #include "renderer/renderer.h"
 #include "scene/scene.h"
 
@@ -33,13 +34,16 @@ public:
     struct Request {
         int channel = 0;
         Scene scene;
-        std::vector<VolumePtr> volumes;
+        std::vector<VolumePtr> volumes{};
         Priority priority = Priority::Full;
-        bool estimateError = false;
+        /// Draws it in pictures of ever smaller steps and states the error (renderer::Refinement). Each
+        /// picture is answered, and slices and interactive pictures are drawn in between.
+        bool refines = false;
+        std::optional<Quality> chosen{};  ///< For Refinement.
     };
 
     /// What became of a request: a frame with its picture, or an error. A request that a newer one replaced
-    /// has no reply.
+    /// has no further reply.
     struct Reply {
         int channel = 0;
         std::uint64_t number = 0;  ///< As request() gave it.
@@ -47,6 +51,7 @@ public:
         std::shared_ptr<const renderer::Frame> frame;
         QImage picture;  ///< The frame through quantise(), RGB888, or RGBA8888 when the scene is transparent.
         std::optional<Error> error;
+        bool isFinal = true;  ///< False while further replies to a request that refines are to come.
     };
 
     explicit RenderService(QObject* parent = nullptr);
@@ -70,6 +75,9 @@ private:
     struct Job {
         std::uint64_t number = 0;
         Request request;
+        std::optional<renderer::Refinement> refinement;
+        std::shared_ptr<const renderer::Frame> shown;  ///< What the refinement has come to.
+        QImage picture;                                ///< Of the same.
     };
     struct Running {
         std::uint64_t number = 0;
@@ -83,8 +91,9 @@ private:
     /// Waits for work; null when it is time to end.
     std::unique_ptr<Job> next(const std::stop_token& stop);
     void draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, const std::stop_token& stop);
-    /// Ends the running job; true when its result is still wanted.
-    bool release(std::unique_ptr<Job> job, bool wasStopped);
+    /// Ends the running job, which waits again when it was interrupted by something shorter or is not done.
+    /// True when its result is still wanted.
+    bool release(std::unique_ptr<Job> job, bool wasStopped, bool isDone);
     bool report(const std::stop_token& stop, Priority priority, double fraction);
     void post(Reply reply);
 

@@ -60,7 +60,7 @@ void SliceView::refresh() {
     Scene scene = shownScene();
     if (scene == m_askedScene) return;
     m_askedScene = scene;
-    ask(std::move(scene), RenderService::Priority::Slice, false);
+    ask({.scene = std::move(scene), .priority = RenderService::Priority::Slice});
 }
 
 RayFrame SliceView::frame() const {

@@ -86,7 +86,8 @@ Scene sliceScene(const Scene& document, const Grid& grid, Plane plane, glm::dvec
     scene.camera.zoom = placement.zoom;
     scene.camera.pose = pose;
     scene.mode = Mode::Slice;
-    scene.quality = document.quality;
+    scene.quality.accumulation = document.quality.accumulation;
+    scene.quality.dither = document.quality.dither;
     scene.picture.size = sizePx;
     return scene;
 }

@@ -42,8 +42,10 @@ void ViewWidget::setShowsOverlay(bool shows) {
     update();
 }
 
-void ViewWidget::ask(Scene scene, RenderService::Priority priority, bool estimateError) {
-    m_asked = m_service.request({m_channel, std::move(scene), m_document.volumes(), priority, estimateError});
+void ViewWidget::ask(RenderService::Request request) {
+    request.channel = m_channel;
+    request.volumes = m_document.volumes();
+    m_asked = m_service.request(std::move(request));
 }
 
 void ViewWidget::take(const RenderService::Reply& reply) {

@@ -50,7 +50,8 @@ protected:
     [[nodiscard]] Drag drag() const { return m_drag; }
     [[nodiscard]] QPointF pressedAt() const { return m_pressedAt; }
 
-    void ask(Scene scene, RenderService::Priority priority, bool estimateError);
+    /// Requests what the view is to show; the channel and the volumes are filled in.
+    void ask(RenderService::Request request);
     /// Asks for a picture if the scene to show differs from the one asked for last.
     virtual void refresh() = 0;
     /// Paints over the picture, in logical pixels.

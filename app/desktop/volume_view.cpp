@@ -34,12 +34,17 @@ VolumeView::VolumeView(Document& document, RenderService& service, QWidget* pare
     m_endWheel.setSingleShot(true);
     m_endWheel.setInterval(kWheelEndMs);
     connect(&m_refine, &QTimer::timeout, this, [this] {
-        if (!this->document().isEmpty()) ask(shownScene(), RenderService::Priority::Full, true);
+        if (!this->document().isEmpty())
+            ask({.scene = shownScene(),
+                 .priority = RenderService::Priority::Full,
+                 .refines = true,
+                 .chosen = m_chosen});
     });
     connect(&m_endWheel, &QTimer::timeout, &document, &Document::endGesture);
     connect(&document, &Document::replaced, this, [this] {
         m_askedScene = {};
         m_msPerPixel = 0.0;
+        m_chosen.reset();
         m_isFinal = false;
     });
     connect(&document, &Document::sceneChanged, this, &VolumeView::refresh);
@@ -67,19 +72,22 @@ void VolumeView::refresh() {
     m_askedScene = scene;
     m_isFinal = false;
     scene.picture.size = interactiveSize();
-    scene.quality.automatic = false;  // choosing takes longer than a picture
+    scene.quality = renderer::passingQuality(scene.quality, m_chosen);
     // The picture's shape decides how the volume is framed; the small picture's is rounded, so it gets the
     // full one's.
     scene.camera.pose =
         resolvedPose(scene.camera, document().volume().grid(), static_cast<double>(width()) / height());
     m_refine.stop();
     m_sinceChange.start();
-    ask(std::move(scene), RenderService::Priority::Interactive, false);
+    ask({.scene = std::move(scene), .priority = RenderService::Priority::Interactive});
 }
 
 void VolumeView::received(const RenderService::Reply& reply) {
-    m_isFinal = reply.error || reply.priority == RenderService::Priority::Full;
-    if (m_isFinal || !reply.frame) return;
+    const bool isFull = reply.priority == RenderService::Priority::Full;
+    m_isFinal = reply.error || (isFull && reply.isFinal);
+    if (!reply.frame) return;
+    if (reply.frame->chosen) m_chosen = reply.frame->chosen;
+    if (isFull) return;
     const glm::ivec2 size = reply.frame->image.size;
     const renderer::FrameCost& cost = reply.frame->cost;
     m_msPerPixel = (cost.wallMs - cost.prepareMs) / (static_cast<double>(size.x) * size.y);

@@ -11,8 +11,8 @@ namespace pellucid::app {
 
 /// The 3D view: the document's scene. Left drag: rotate about the target; middle or Shift+left: pan; right
 /// drag or wheel: zoom; Ctrl+right or Ctrl+wheel: fly towards the target; Ctrl+left: roll; A P L R S I and
-/// keypad 1 3 7: standard views. A change shows a small picture at once, and the full one with its error
-/// estimate when the hand rests.
+/// keypad 1 3 7: standard views. A change shows a small picture at once; when the hand rests, the full size
+/// with ever smaller steps, and at last its error.
 class VolumeView : public ViewWidget {
     Q_OBJECT
 
@@ -22,7 +22,7 @@ public:
     [[nodiscard]] Scene shownScene() const override;
     void resetView() override;
     void setStandardView(AnatomicalView view);
-    /// True when the full picture of the scene is shown.
+    /// True when the full picture of the scene is shown and its error is known.
     [[nodiscard]] bool isComplete() const { return isSettled() && m_isFinal; }
     /// Size of the picture asked for while the scene moves: what takes about 80 ms, from the last measured
     /// one.
@@ -47,8 +47,9 @@ private:
     QTimer m_endWheel;  ///< Single shot; ends the wheel's gesture.
     Scene m_askedScene;
     QElapsedTimer m_sinceChange;
-    bool m_isFinal = false;     ///< The newest answer is the full picture, or that there is none.
+    bool m_isFinal = false;     ///< The newest answer is the last of a full picture, or that there is none.
     double m_msPerPixel = 0.0;  ///< 0: not measured yet.
+    std::optional<Quality> m_chosen;  ///< By the renderer, for the last picture of automatic quality.
     Camera m_cameraAtPress;
     CameraPose m_poseAtPress;
     bool m_flies = false;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The error a frame states of itself, held against the reference on real scans and synthetic fields.
 #include "io/load.h"
+#include "renderer/refinement.h"
 #include "tests/accuracy/estimate_judge.h"
 
 namespace pellucid::test {
@@ -36,6 +37,69 @@ TEST_F(Estimate, LiesWithinAFactorOfTwo) {
     }
     judge.max.expectGood("maximum");
     judge.rmse.expectGood("RMSE");
+}
+
+TEST_F(Estimate, ARefinementHalvesTheStepUntilThePictureIsTheScenes) {
+    const VolumePtr volume = accuracy::marschnerLobb(24);
+    Scene scene = completed(Scene{}, {volume});
+    scene.picture.size = {32, 24};
+    scene.quality.integrator = Integrator::Preintegrated2D;
+    scene.quality.jitter = true;
+    renderer::Refinement refinement(scene);
+    std::vector<double> steps;
+    std::vector<std::string> methods;
+    std::shared_ptr<const renderer::Frame> shown;
+    const ImageF asked = draw(scene, volume);
+    while (!refinement.isDone()) {
+        const Scene next = refinement.next();
+        steps.push_back(stepMm(next.quality, volume->grid()) / stepMm(scene.quality, volume->grid()));
+        EXPECT_EQ(next == scene, steps.back() == 1.0) << "only the picture with this step is the scene's";
+        shown = refinement.take(frameOf(next, volume));
+        methods.push_back(shown->error ? shown->error->method : "");
+        EXPECT_EQ(shown->image == asked, steps.back() <= 1.0);
+    }
+    EXPECT_EQ(steps, (std::vector{4.0, 2.0, 1.0, 0.25}));
+    EXPECT_EQ(methods, (std::vector<std::string>{"", "a first idea from a picture with twice the step",
+                                                 "a first idea from a picture with twice the step",
+                                                 "compared with a quarter of the step on 32 x 24 pixels"}));
+    renderer::RenderOptions options;
+    options.estimateError = true;
+    options.estimateReduction = 1;
+    const renderer::Frame estimated = frameOf(scene, volume, options);
+    EXPECT_EQ(shown->error->rmse, estimated.error->rmse) << "one rule, whoever draws";
+    EXPECT_EQ(shown->error->maxError, estimated.error->maxError);
+}
+
+TEST_F(Estimate, ARefinementOfAutomaticQualityEndsWithItsOwnEstimate) {
+    const VolumePtr volume = accuracy::marschnerLobb(24);
+    Scene scene = completed(Scene{}, {volume});
+    scene.picture.size = {32, 24};
+    scene.quality.automatic = true;
+    const renderer::Frame before = frameOf(scene, volume);
+    ASSERT_TRUE(before.chosen && before.error);
+    scene.camera.view = AnatomicalView::Superior;
+    renderer::Refinement refinement(scene, before.chosen);
+    for (const double times : {4.0, 2.0}) {
+        const Scene next = refinement.next();
+        EXPECT_FALSE(next.quality.automatic);
+        EXPECT_EQ(next.quality.integrator, before.chosen->integrator);
+        EXPECT_EQ(next.quality.stepVoxels, times * before.chosen->stepVoxels);
+        refinement.take(frameOf(next, volume));
+    }
+    EXPECT_EQ(refinement.next(), scene);
+    const auto shown = refinement.take(frameOf(scene, volume));
+    EXPECT_TRUE(refinement.isDone());
+    EXPECT_TRUE(shown->chosen);
+    EXPECT_TRUE(shown->error->method.starts_with("compared with a quarter")) << shown->error->method;
+}
+
+TEST_F(Estimate, ASliceHasNothingToRefine) {
+    const VolumePtr volume = accuracy::marschnerLobb(8);
+    Scene scene = completed(Scene{}, {volume});
+    scene.mode = Mode::Slice;
+    renderer::Refinement refinement(scene);
+    EXPECT_FALSE(refinement.take(frameOf(refinement.next(), volume))->error);
+    EXPECT_TRUE(refinement.isDone());
 }
 
 }  // namespace

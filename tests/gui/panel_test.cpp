@@ -3,9 +3,11 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QSlider>
 
 #include "app/desktop/look_panel.h"
+#include "scene/names.h"
 #include "tests/gui/gui_support.h"
 
 namespace pellucid::test {
@@ -120,6 +122,85 @@ TEST_F(PanelTest, ADraggedSliderIsOneStep) {
     document().undo();
     EXPECT_EQ(document().scene().densityScale, 1.0);
     EXPECT_FALSE(document().undoStack().canUndo());
+}
+
+TEST_F(PanelTest, QualityByErrorIsMetAndSaidInTheStatusBar) {
+    EXPECT_FALSE(isShown("tolerance"));
+    EXPECT_TRUE(isShown("step") && isShown("integrator"));
+    choose("qualityUnit", QStringLiteral("By error"));
+    EXPECT_EQ(document().undoStack().undoName(), "Quality by error");
+    EXPECT_TRUE(isShown("tolerance") && isShown("toleranceNorm"));
+    EXPECT_FALSE(isShown("step") || isShown("integrator"));
+    EXPECT_EQ(document().scene().quality.toleranceGreyLevels, 1.0);
+    // 0.1 * 200^0.75, with one decimal.
+    childOf<QSlider>("tolerance", "slider")->setValue(750);
+    EXPECT_EQ(document().scene().quality.toleranceGreyLevels, 5.3);
+    EXPECT_EQ(document().undoStack().undoName(), "Error allowed");
+    ASSERT_TRUE(settle());
+    ASSERT_TRUE(volumeView()->lastReply()->frame->chosen);
+    const auto says = [this](const char* text) {
+        return child<QLabel>("cost")->text().contains(QLatin1String(text));
+    };
+    EXPECT_TRUE(says("grey levels RMS (asked 5.3), ")) << child<QLabel>("cost")->text().toStdString();
+    choose("toleranceNorm", QStringLiteral("Anywhere (maximum)"));
+    EXPECT_EQ(document().scene().quality.toleranceNorm, ErrorNorm::Max);
+    ASSERT_TRUE(settle());
+    EXPECT_TRUE(says(" at most (asked 5.3)")) << child<QLabel>("cost")->text().toStdString();
+    EXPECT_FALSE(says("NOT met"));
+}
+
+TEST_F(PanelTest, QualityByStepGoesOnFromWhatWasChosen) {
+    choose("qualityUnit", QStringLiteral("By error"));
+    childOf<QDoubleSpinBox>("tolerance", "field")->setValue(0.3);
+    ASSERT_TRUE(settle());
+    const renderer::Frame& before = *volumeView()->lastReply()->frame;
+    const Quality chosen = before.chosen.value();
+    choose("qualityUnit", QStringLiteral("By step"));
+    EXPECT_EQ(document().undoStack().undoName(), "Quality by step");
+    const Quality& stated = document().scene().quality;
+    EXPECT_FALSE(stated.automatic);
+    EXPECT_EQ(stated.stepVoxels, chosen.stepVoxels);
+    EXPECT_EQ(stated.integrator, chosen.integrator);
+    EXPECT_NEAR(childOf<QDoubleSpinBox>("step", "field")->value(), chosen.stepVoxels, 0.005);
+    const ImageF picture = before.image;
+    ASSERT_TRUE(settle());
+    EXPECT_EQ(volumeView()->lastReply()->frame->image, picture);
+}
+
+TEST_F(PanelTest, EveryIntegratorCanBeChosenWhereItCounts) {
+    const auto integrators = enumNames<Integrator>();
+    auto* box = child<QComboBox>("integrator");
+    ASSERT_EQ(box->count(), static_cast<int>(integrators.size()));
+    for (const auto& integrator : integrators) {
+        choose("integrator", box->itemText(static_cast<int>(integrator.value)));
+        EXPECT_EQ(document().scene().quality.integrator, integrator.value);
+        EXPECT_EQ(isShown("tolerance"), integrator.value == Integrator::Adaptive);
+    }
+    choose("mode", QStringLiteral("Maximum (MIP)"));
+    EXPECT_FALSE(isShown("integrator") || isShown("tolerance")) << "a maximum is not integrated";
+    ASSERT_TRUE(settle());
+}
+
+TEST_F(PanelTest, EveryFilterCanBeChosen) {
+    EXPECT_EQ(child<QComboBox>("filter")->count(), static_cast<int>(enumNames<Filter>().size()));
+}
+
+TEST_F(PanelTest, TabGoesThroughTheQualityInTheOrderShown) {
+    choose("qualityUnit", QStringLiteral("By error"));
+    window.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+    child<QWidget>("filter")->setFocus();
+    QStringList order;
+    for (int i = 0; i < 6; ++i) {
+        QWidget* focus = QApplication::focusWidget();
+        const bool isPart =
+            focus->objectName() == QStringLiteral("slider") || focus->objectName() == QStringLiteral("field");
+        order +=
+            isPart ? focus->parentWidget()->objectName() + u'.' + focus->objectName() : focus->objectName();
+        QTest::keyClick(focus, Qt::Key_Tab);
+    }
+    EXPECT_EQ(order.join(u' ').toStdString(),
+              "filter qualityUnit tolerance.slider tolerance.field toleranceNorm space");
 }
 
 TEST_F(PanelTest, WindowFieldsAndPresetsFollowTheDocument) {

@@ -62,6 +62,45 @@ TEST_F(RenderServiceTest, AFullPictureGivesWayToASliceAndIsDrawnAgain) {
     EXPECT_EQ(replies[1].picture.width(), 600);
 }
 
+TEST_F(RenderServiceTest, ARefinementGivesWayToASliceAndGoesOnWhereItWas) {
+    Scene scene = scan.scene;
+    scene.picture.size = {300, 300};
+    scene.quality.stepVoxels = 0.1;
+    const auto full = service.request({3, scene, scan.volumes, RenderService::Priority::Full, true});
+    ASSERT_TRUE(waitReplies(1));
+    const auto slice = ask(0, RenderService::Priority::Slice, {32, 32});
+    ASSERT_TRUE(waitFor([&] { return replies.back().number == full && replies.back().isFinal; }));
+    ASSERT_EQ(replies.size(), 5u) << "four stages, none of them twice, and the slice";
+    std::vector<double> steps;
+    bool sliceWasBetween = false;
+    for (const auto& reply : replies) {
+        if (reply.number == full)
+            steps.push_back(reply.frame->plan.stepMm);
+        else
+            sliceWasBetween = reply.number == slice && !steps.empty() && steps.size() < 4;
+    }
+    EXPECT_TRUE(sliceWasBetween);
+    const double last = steps.back();
+    EXPECT_EQ(steps, (std::vector{4.0 * last, 2.0 * last, last, last}));
+}
+
+TEST_F(RenderServiceTest, AnErrorThatCannotBeMeasuredLeavesThePicture) {
+    // A step that the device draws and whose quarter it refuses.
+    auto renderer = renderer::Renderer::headless().value();
+    Scene scene = scan.scene;
+    scene.picture.size = {16, 16};
+    scene.quality.stepVoxels = 1.0;
+    while (renderer.render(scene, scan.volumes) && scene.quality.stepVoxels > 1e-9)
+        scene.quality.stepVoxels /= 2.0;
+    if (scene.quality.stepVoxels <= 1e-9) GTEST_SKIP() << "this device draws every step";
+    scene.quality.stepVoxels *= 2.0;
+    service.request({3, scene, scan.volumes, RenderService::Priority::Full, true});
+    ASSERT_TRUE(waitFor([&] { return !replies.empty() && replies.back().isFinal; }));
+    ASSERT_FALSE(replies.back().error) << replies.back().error->text();
+    EXPECT_EQ(replies.back().picture.width(), 16);
+    EXPECT_EQ(replies.back().frame->error->method, "a first idea from a picture with twice the step");
+}
+
 TEST_F(RenderServiceTest, ANewerFullPictureReplacesTheRunningOne) {
     ask(3, RenderService::Priority::Full, {1200, 1200}, 0.02);
     QTest::qWait(100);

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: Pellucid contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <QElapsedTimer>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QToolButton>
+#include <ctime>
+#include <glm/geometric.hpp>
 
 #include "scene/image.h"
 #include "tests/gui/gui_support.h"
@@ -44,20 +48,111 @@ TEST_F(VolumeViewTest, LeftDragRotatesAboutTheTargetAsOneStep) {
     EXPECT_EQ(*document().scene().camera.pose, pose);
 }
 
-TEST_F(VolumeViewTest, ASmallPictureComesFirstAndThenTheFullOne) {
-    std::vector<app::RenderService::Priority> order;
-    std::vector<int> widths;
-    QObject::connect(volumeView(), &app::ViewWidget::pictureShown,
-                     [&](const app::RenderService::Reply& reply) {
-                         order.push_back(reply.priority);
-                         widths.push_back(reply.picture.width());
-                     });
-    const int expected = volumeView()->interactiveSize().x;
+/// The replies that a view shows, as they come.
+std::vector<app::RenderService::Reply>& collect(app::VolumeView* view,
+                                                std::vector<app::RenderService::Reply>& replies) {
+    QObject::connect(view, &app::ViewWidget::pictureShown,
+                     [&replies](const app::RenderService::Reply& reply) { replies.push_back(reply); });
+    return replies;
+}
+
+TEST_F(VolumeViewTest, ASmallPictureComesFirstAndThenFinerAndFinerOnes) {
+    std::vector<app::RenderService::Reply> replies;
+    collect(volumeView(), replies);
+    const glm::ivec2 small = volumeView()->interactiveSize(), full = volumeView()->pixelSize();
+    volumeView()->setStandardView(AnatomicalView::Left);
+    ASSERT_TRUE(waitFor([&] { return replies.size() >= 3; }));
+    EXPECT_TRUE(child<QLabel>("cost")->text().contains(QStringLiteral("refining; error about")))
+        << child<QLabel>("cost")->text().toStdString();
+    ASSERT_TRUE(settle());
+    const double asked = stepMm(document().scene().quality, document().volume().grid());
+    std::vector<glm::ivec2> sizes;
+    std::vector<double> steps;
+    std::vector<bool> isFinal, hasError;
+    for (const auto& reply : replies) {
+        sizes.push_back({reply.picture.width(), reply.picture.height()});
+        steps.push_back(reply.frame->plan.stepMm / asked);
+        isFinal.push_back(reply.priority == app::RenderService::Priority::Full && reply.isFinal);
+        hasError.push_back(reply.frame->error.has_value());
+    }
+    EXPECT_EQ(sizes, (std::vector{small, full, full, full, full}));
+    EXPECT_EQ(steps, (std::vector{1.0, 4.0, 2.0, 1.0, 1.0})) << "the last is the same, with its error";
+    EXPECT_EQ(isFinal, (std::vector{false, false, false, false, true}));
+    EXPECT_EQ(hasError, (std::vector{false, false, true, true, true}));
+    EXPECT_EQ(replies[3].picture, replies[4].picture);
+    EXPECT_TRUE(child<QLabel>("cost")->text().contains(
+        QStringLiteral(" at most   |   steps of 0.5 voxels, exponential")))
+        << child<QLabel>("cost")->text().toStdString();
+}
+
+TEST_F(VolumeViewTest, AnEventEndsTheRefinementAtOnce) {
+    // Some seconds for the picture with the whole step.
+    document().change("step", {}, [](Scene& scene) { scene.quality.stepVoxels = 0.01; });
+    std::vector<app::RenderService::Reply> replies;
+    collect(volumeView(), replies);
+    ASSERT_TRUE(waitFor(
+        [&] { return !replies.empty() && replies.back().priority == app::RenderService::Priority::Full; }));
+    ASSERT_FALSE(replies.back().isFinal) << "too fast for this test";
+    const auto number = replies.back().number;
+    replies.clear();
+    document().change("step", {}, [](Scene& scene) { scene.quality.stepVoxels = 1.0; });
+    QElapsedTimer since;
+    since.start();
+    ASSERT_TRUE(waitFor([&] { return !replies.empty(); }));
+    EXPECT_EQ(replies.front().priority, app::RenderService::Priority::Interactive);
+    EXPECT_LT(since.elapsed(), 1000) << "the rest of the fine pictures is not waited for";
+    ASSERT_TRUE(settle());
+    for (const auto& reply : replies) EXPECT_GT(reply.number, number);
+}
+
+glm::dvec3 meanColor(const ImageF& image) {
+    glm::dvec3 sum(0.0);
+    for (const glm::vec4& pixel : image.pixels) sum += glm::dvec3(pixel);
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+TEST_F(VolumeViewTest, WhileTheHandMovesNothingIsChosenAndTheBrightnessStays) {
+    document().change("quality", {}, [](Scene& scene) {
+        scene.quality.automatic = true;
+        scene.densityScale = 0.2;  // Faint, where a wrong step would show most.
+    });
+    ASSERT_TRUE(settle());
+    const Quality chosen = volumeView()->lastReply()->frame->chosen.value();
+    std::vector<app::RenderService::Reply> replies;
+    collect(volumeView(), replies);
     volumeView()->setStandardView(AnatomicalView::Left);
     ASSERT_TRUE(settle());
-    using Priority = app::RenderService::Priority;
-    EXPECT_EQ(order, (std::vector{Priority::Interactive, Priority::Full}));
-    EXPECT_EQ(widths, (std::vector{expected, volumeView()->pixelSize().x}));
+    const renderer::Frame& moving = *replies.front().frame;
+    const renderer::Frame& still = *replies.back().frame;
+    EXPECT_EQ(replies.front().priority, app::RenderService::Priority::Interactive);
+    EXPECT_FALSE(moving.chosen);
+    EXPECT_EQ(moving.plan.features.integrator, chosen.integrator);
+    Quality doubled = chosen;
+    doubled.stepVoxels *= 2.0;
+    EXPECT_EQ(moving.plan.stepMm, stepMm(doubled, document().volume().grid()));
+    EXPECT_TRUE(still.chosen);
+    const glm::dvec3 apart = meanColor(moving.image) - meanColor(still.image);
+    EXPECT_GT(glm::length(meanColor(still.image)), 5.0 / 255.0) << "an empty picture proves nothing";
+    EXPECT_LT(glm::length(apart), 1.0 / 255.0);
+}
+
+TEST_F(VolumeViewTest, APreviewOfTheTableGivesWayToTheExactOne) {
+    document().change("integrator", {},
+                      [](Scene& scene) { scene.quality.integrator = Integrator::Preintegrated2D; });
+    ASSERT_TRUE(settle());
+    std::vector<app::RenderService::Reply> replies;
+    collect(volumeView(), replies);
+    document().changeItem("curve", {}, [](VolumeItem& item) {
+        for (auto& point : item.transferFunction->points) point.color *= 0.9;
+    });
+    ASSERT_TRUE(settle());
+    ASSERT_GE(replies.size(), 2u);
+    EXPECT_EQ(replies.front().priority, app::RenderService::Priority::Interactive);
+    EXPECT_TRUE(replies.front().frame->preview) << "the exact table is not waited for";
+    EXPECT_FALSE(replies.back().frame->preview);
+    auto renderer = renderer::Renderer::headless().value();
+    EXPECT_EQ(renderer.render(volumeView()->shownScene(), document().volumes()).value().image,
+              replies.back().frame->image);
 }
 
 TEST_F(VolumeViewTest, WheelAndRightDragZoomAndMiddleDragPans) {
@@ -109,8 +204,11 @@ TEST_F(VolumeViewTest, NothingIsDrawnWhileNothingChanges) {
     document().changeItem("window", {}, [](VolumeItem& item) { item.window = Window{0, 100}; });
     ASSERT_TRUE(settle());
     EXPECT_EQ(pictures, 3);
+    const std::clock_t before = std::clock();
     QTest::qWait(400);  // Longer than the rest after which the full picture is drawn.
     EXPECT_EQ(pictures, 3);
+    // Of all threads. An idle program takes next to nothing; one that polled or drew would take most of it.
+    EXPECT_LT(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, 0.1);
 }
 
 }  // namespace
