@@ -11,8 +11,8 @@ namespace pellucid::accuracy {
 
 namespace {
 
-// Shares of the time, as measured.
-constexpr double kStepSeconds = 24.0, kGridSeconds = 12.0, kPixelSeconds = 4.0, kExtremeSeconds = 60.0;
+// Shares of the time, about.
+constexpr double kStepSeconds = 40.0, kGridSeconds = 20.0, kPixelSeconds = 40.0, kExtremeSeconds = 60.0;
 
 /// Progress of parts that follow each other, as that of the whole.
 class Parts {

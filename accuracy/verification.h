@@ -13,12 +13,12 @@
 
 namespace pellucid::accuracy {
 
-/// What the self-test is asked to do. The times are those of two cores without a graphics card.
+/// What the self-test is asked to do. Each part takes up to a minute on two cores without a graphics card.
 struct VerificationParts {
-    bool step = true;      ///< Orders under refinement of the step; some 25 s.
-    bool grid = true;      ///< Of the voxel grid; 10 s.
-    bool pixel = true;     ///< Of the pixel; 5 s.
-    bool extreme = false;  ///< The stiff and extreme cases; 60 s.
+    bool step = true;      ///< Orders under refinement of the step.
+    bool grid = true;      ///< Of the voxel grid.
+    bool pixel = true;     ///< Of the pixel.
+    bool extreme = false;  ///< The stiff and extreme cases.
 };
 
 /// What the self-test found. A suite that was not asked for is absent.

@@ -28,7 +28,7 @@ const char* claimName(Claim claim) {
 
 std::string expectedText(const OrderRow& row) {
     if (row.claim == Claim::Independent) return fmt::format("<= {:.1e}", row.tolerance);
-    return fmt::format("{}{:.0f} +- {:.2f}", row.claim == Claim::AtLeast ? ">= " : "", row.expected,
+    return fmt::format("{}{:g} +- {:.2f}", row.claim == Claim::AtLeast ? ">= " : "", row.expected,
                        row.tolerance);
 }
 

@@ -74,13 +74,12 @@ void VerifyDialog::build() {
     m_run->setObjectName(QStringLiteral("verifyRun"));
     m_save->setObjectName(QStringLiteral("verifySave"));
     for (QCheckBox* box : {m_step, m_grid, m_pixel}) box->setChecked(true);
-    m_step->setToolTip(
-        tr("Errors of finer and finer steps along the ray, against the reference; 25 seconds."));
-    m_grid->setToolTip(tr("Errors of finer and finer voxels, against closed forms; 10 seconds."));
-    m_pixel->setToolTip(tr("Errors of finer and finer pixels, against their mean; 5 seconds."));
+    m_step->setToolTip(tr("Errors of finer and finer steps along the ray, against the reference."));
+    m_grid->setToolTip(tr("Errors of finer and finer voxels, against closed forms."));
+    m_pixel->setToolTip(tr("Errors of finer and finer pixels, against their mean."));
     m_extreme->setToolTip(
         tr("Very dense, very thin, empty, huge and broken scenes, each against a closed form or the "
-           "reference; a minute."));
+           "reference."));
     m_run->setDefault(true);
     m_save->setAutoDefault(false);
 
@@ -100,7 +99,7 @@ void VerifyDialog::build() {
 
     auto* introduction = new QLabel(
         tr("Draws known fields on this machine and compares the order at which errors fall with theory. The "
-           "views stay usable meanwhile."),
+           "views stay usable meanwhile. Each part takes up to a minute without a graphics card."),
         this);
     introduction->setWordWrap(true);
     auto* choices = new QHBoxLayout;

@@ -44,6 +44,22 @@ TEST(OrderRow, PassesWithinItsToleranceOnly) {
     EXPECT_FALSE(row.passed()) << "NaN";
 }
 
+TEST(OrderRow, SaysWhatItIsHeldTo) {
+    accuracy::OrderRow row{"pixel", "composite", "", "nearest"};
+    row.claim = accuracy::Claim::AtLeast;
+    row.expected = 1.5;
+    row.tolerance = 0.15;
+    row.reason = "kinks";
+    row.sizes = {1.0, 0.5};
+    row.errors = {4e-3, 2e-3};
+    const accuracy::VerificationLine line = lineOf(row);
+    EXPECT_EQ(line.name, "pixel: composite, nearest");
+    EXPECT_EQ(line.theory, "order >= 1.5 +- 0.15");
+    EXPECT_EQ(line.observed, "1.00");
+    EXPECT_FALSE(line.passed);
+    EXPECT_EQ(line.reason, "kinks");
+}
+
 class Verify : public GpuTest {};
 
 TEST_F(Verify, EveryObservedOrderIsAsTheorySays) {
