@@ -5,11 +5,11 @@
 // the RMSE of each picture against the reference.
 //
 //   xvfb-run -a raycast_vs_vtk [--frames N] [--cpu] [--no-reference] [--only TEXT] [--pictures FOLDER]
-//   [VOLUME]
+//   [--all-samples] [VOLUME]
 //
 // --cpu counts processor time of all cores instead of the wall clock: for a software driver on a machine that
-// is busy with other things. --only keeps the rows that hold a text. --pictures writes what is
-// compared.
+// is busy with other things. --all-samples switches empty-space skipping off. --only keeps the rows that hold
+// a text. --pictures writes what is compared.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -33,6 +33,7 @@ struct Options {
     int frames = 7;
     bool cpuTime = false;
     bool withReference = true;
+    bool allSamples = false;
     std::string only;
     std::string path;
     std::string pictures;
@@ -104,8 +105,10 @@ struct Row {
 Result<Row> measure(const BenchCase& c, Ours& ours, const Options& options) {
     Scene whole = c.scene;
     whole.quality.earlyTermination = 0.0;
+    whole.quality.skipEmpty = !options.allSamples;
     Scene stopping = c.scene;
     stopping.quality.earlyTermination = 1.0 / 255.0;
+    stopping.quality.skipEmpty = !options.allSamples;
     Row row;
     VtkPeer vtk(c.scene, *c.volume);
     std::vector<double> vtkMs, stoppingMs, wholeMs;
@@ -199,6 +202,8 @@ int main(int argc, char** argv) {
         const bool more = i + 1 < argc;
         if (argument == "--no-reference") {
             options.withReference = false;
+        } else if (argument == "--all-samples") {
+            options.allSamples = true;
         } else if (argument == "--cpu") {
             options.cpuTime = true;
         } else if (argument == "--only" && more) {

@@ -17,6 +17,7 @@
 #include "accuracy/synthetic.h"
 #include "io/load.h"
 #include "renderer/renderer.h"
+#include "renderer/resources/occupancy.h"
 
 namespace pellucid::bench {
 namespace {
@@ -116,6 +117,31 @@ void registerPair(renderer::Renderer& renderer, const SkipCase& c) {
     }
 }
 
+/// What an edit of the transfer function costs before the picture, and what a new volume costs once.
+void registerPreparation(const VolumePtr& shells) {
+    const glm::ivec3 size(512, 512, 300);
+    const VolumePtr ct = accuracy::sampledVolume(axisAlignedGrid(size), VoxelType::Int16, [&](glm::ivec3 i) {
+        return shells->stored({i.x / 2, i.y / 2, i.z * 256 / 300});
+    });
+    benchmark::RegisterBenchmark("block-ranges/512x512x300",
+                                 [ct](benchmark::State& state) {
+                                     for (auto _ : state)
+                                         benchmark::DoNotOptimize(renderer::blockRanges(*ct, 0, 1));
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+    const renderer::BlockRanges ranges = renderer::blockRanges(*ct, 0, 1);
+    benchmark::RegisterBenchmark(
+        "occupancy/512x512x300",
+        [ranges](benchmark::State& state) {
+            const std::vector<ValueRange> shown{{(150.0 + 32768.0) / 65535.0, 1.0}};
+            for (auto _ : state)
+                benchmark::DoNotOptimize(renderer::occupancyOf(ranges, renderer::ShownQuanta(shown), 0.0));
+        })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+}
+
 }  // namespace
 }  // namespace pellucid::bench
 
@@ -130,6 +156,7 @@ int main(int argc, char** argv) {
     }
     const auto cases = bench::skipCases(path);
     for (const auto& c : cases) bench::registerPair(*renderer, c);
+    bench::registerPreparation(accuracy::ctLikeShells(256));
     benchmark::RunSpecifiedBenchmarks();
     return 0;
 }

@@ -105,6 +105,26 @@ TEST_F(RendererTest, RecomputesOnlyWhatAnEventTouches) {
     step([&] {}, {0, 0, 0, 0, 1}, "nothing");
 }
 
+TEST_F(RendererTest, EmptySpaceIsSoughtAgainOnlyWhenWhatShowsChanges) {
+    auto renderer = Renderer::headless().value();
+    Scene scene = test::rampScene();
+    const auto counts = [&](auto&& edit) {
+        edit();
+        draw(renderer, scene);
+        return std::pair(renderer.workCounts().blockRanges, renderer.workCounts().occupancies);
+    };
+    auto& function = *scene.volumes[0].transferFunction;
+    EXPECT_EQ(counts([] {}), std::pair(1, 1));
+    EXPECT_EQ(counts([&] { scene.camera.view = AnatomicalView::Left; }), std::pair(1, 1));
+    EXPECT_EQ(counts([&] { scene.quality.stepVoxels = 0.25; }), std::pair(1, 1));
+    EXPECT_EQ(counts([&] { function.points[1].color = {0, 1, 0}; }), std::pair(1, 1));
+    EXPECT_EQ(counts([&] { scene.lights->push_back(Light{}); }), std::pair(1, 1));
+    EXPECT_EQ(counts([&] { function.points[0].value = 350; }), std::pair(1, 2));
+    EXPECT_EQ(counts([&] { function.points[0].value = 200; }), std::pair(1, 2));  // still known
+    EXPECT_EQ(counts([&] { scene.volumes[0].filter = Filter::TricubicBSpline; }), std::pair(2, 3));
+    EXPECT_EQ(counts([&] { m_volume = test::ballVolume(20); }), std::pair(3, 4));
+}
+
 TEST_F(RendererTest, IncrementalUpdatesEqualAFullRebuild) {
     auto renderer = Renderer::headless().value();
     Scene scene = test::rampScene();
