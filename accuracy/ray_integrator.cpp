@@ -51,11 +51,12 @@ double bend(const std::array<glm::dvec3, 3>& nodes, const glm::dvec3& from, cons
 
 }  // namespace
 
-RayIntegrator::RayIntegrator(const Scene& scene, const Volume& volume)
+RayIntegrator::RayIntegrator(const Scene& scene, const Volume& volume, double insetVoxels)
     : m_scene(scene),
       m_field(volume, scene.volumes.front().component, scene.volumes.front().filter),
       m_optics(*scene.volumes.front().transferFunction, scene.space, *scene.unitLengthMm, scene.densityScale),
       m_frame(rayFrame(scene.camera, volume.grid(), scene.picture.size)),
+      m_inset(insetVoxels),
       m_centreMm(centreMm(volume.grid())),
       m_indexFromPatient(glm::inverse(glm::dmat3(volume.grid().patientFromIndex))),
       m_gradientFromIndex(glm::transpose(m_indexFromPatient)),
@@ -86,7 +87,7 @@ RayIntegrator::Ray RayIntegrator::rayAt(double u, double v) const {
     // Relative to the centre, so that a scan far from the origin loses no digits.
     ray.index.origin = m_indexFromPatient * ray.originMm + (glm::dvec3(m_field.size()) - 1.0) / 2.0;
     ray.index.perMm = m_indexFromPatient * ray.direction;
-    ray.inside = insideBox(ray.index, m_field.size(), ray.startMm);
+    ray.inside = insideBox(ray.index, m_field.size(), ray.startMm, m_inset);
     return ray;
 }
 

@@ -26,8 +26,9 @@ struct RayIntegral {
 /// (order 6), halved until its optical depth is at most 1/4, so that dense media are no special case.
 class RayIntegrator {
 public:
+    /// `insetVoxels`: the volume ends this far inside the box that its voxels fill.
     /// Precondition: the scene is completed() and valid, with one volume.
-    RayIntegrator(const Scene& scene, const Volume& volume);
+    RayIntegrator(const Scene& scene, const Volume& volume, double insetVoxels = 0.0);
 
     /// The picture's RGBA at a point of the picture plane, u and v in [-1, 1] (v up), as ImageF has it.
     [[nodiscard]] glm::dvec4 pixel(double u, double v, double stepMm) const;
@@ -78,6 +79,7 @@ private:
     Field m_field;
     Optics m_optics;
     RayFrame m_frame;
+    double m_inset;
     glm::dvec3 m_centreMm;
     glm::dmat3 m_indexFromPatient;     ///< For vectors.
     glm::dmat3 m_gradientFromIndex;    ///< Its transpose: index gradients to patient gradients.

@@ -31,13 +31,14 @@ struct Interval {
     double to = 0.0;
 };
 
-/// Where the ray is inside the box [-0.5, size - 0.5], not before `start`; nothing when the two do not
-/// overlap.
-[[nodiscard]] inline std::optional<Interval> insideBox(const IndexRay& ray, glm::ivec3 size, double start) {
+/// Where the ray is inside the box [inset - 0.5, size - 0.5 - inset], not before `start`; nothing when the
+/// two do not overlap.
+[[nodiscard]] inline std::optional<Interval> insideBox(const IndexRay& ray, glm::ivec3 size, double start,
+                                                       double inset) {
     Interval inside{start, std::numeric_limits<double>::infinity()};
     for (int axis = 0; axis < 3; ++axis) {
-        const double lo = -0.5 - ray.origin[axis];
-        const double hi = size[axis] - 0.5 - ray.origin[axis];
+        const double lo = inset - 0.5 - ray.origin[axis];
+        const double hi = size[axis] - 0.5 - inset - ray.origin[axis];
         if (ray.perMm[axis] == 0.0) {
             if (lo > 0.0 || hi < 0.0) return std::nullopt;
             continue;

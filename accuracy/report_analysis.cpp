@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "accuracy/report_plan.h"
+#include "accuracy/report_reference.h"
 
 namespace pellucid::accuracy {
 namespace {
@@ -34,13 +35,14 @@ bool jumps(const TransferFunction1D& function) {
 }
 
 /// Below this an error says nothing of the integrator: the reference's own, that of ended rays, and float
-/// roundings.
-double floorOf(const ReportData& data, Filter filter) {
+/// roundings; with VTK's 8-bit frame buffer twice the RMSE of rounding to it, 1 / (255 sqrt 12).
+double floorOf(const ReportData& data, const ReportSetting& setting, const Scene& scene) {
     double bound = 0.0;
     for (const ReferenceFacts& reference : data.references)
-        if (reference.filter == filter) bound = reference.reachedBound;
+        if (reference.kind == referenceOf(setting, scene)) bound = reference.reachedBound;
+    const double output = setting.renderer == "vtk-gpu" ? 2.0 / (255.0 * std::sqrt(12.0)) : 2e-6;
     // A bound is a largest error; the RMSE beside it is smaller still.
-    return std::max({bound, kReportTermination, 2e-6});
+    return std::max({bound, kReportTermination, output});
 }
 
 void setOrder(ReportSeries& series, const ReportData& data, const Scene& scene) {
@@ -55,10 +57,14 @@ void setOrder(ReportSeries& series, const ReportData& data, const Scene& scene) 
     std::vector<StepError> curve;
     for (const std::size_t i : series.members)
         curve.push_back({data.measurements[i].stepMm, data.measurements[i].rmse});
-    series.order = observedOrder(curve, floorOf(data, setting.filter));
+    series.order = observedOrder(curve, floorOf(data, setting, scene));
     if (!series.order.order) {
         series.remark =
-            fmt::format("not measurable: fewer than two errors above {:.1e}", floorOf(data, setting.filter));
+            fmt::format("not measurable: fewer than two errors above {:.1e}", floorOf(data, setting, scene));
+    } else if (setting.renderer == "vtk-fixed-point") {
+        series.remark = "15 bits: each step adds roundings, so small steps are no better";
+    } else if (setting.renderer == "vtk-gpu") {
+        series.remark = "rays begin and end on whole steps; 8-bit frame buffer";
     } else if (setting.accumulation != Accumulation::Float32) {
         series.remark = "limited by the accumulation format";
         series.theory.reset();

@@ -40,9 +40,19 @@ struct Measurement {
     double ssim = 0.0;
 };
 
-/// The picture everything of one filter is compared with.
-struct ReferenceFacts {
+/// What a picture is compared with: the same field and light. What a peer cannot be told to do as we do is
+/// another scene and no error, as another filter is.
+struct ReferenceKind {
     Filter filter = Filter::Trilinear;
+    /// Peers: the volume ends at the outer voxel centres, half a voxel inside ours, and shown is what lies
+    /// in [0, 1].
+    bool peers = false;
+    bool lightAtEye = false;  ///< VTK's GPU mapper: a headlight is a point at the eye.
+    bool operator==(const ReferenceKind&) const = default;
+};
+
+struct ReferenceFacts {
+    ReferenceKind kind;
     double reachedBound = 0.0;  ///< Largest difference of its last two pictures.
     double stepMm = 0.0;
     double ms = 0.0;

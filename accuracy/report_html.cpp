@@ -9,6 +9,7 @@
 
 #include "accuracy/report_figures.h"
 #include "accuracy/report_plan.h"
+#include "accuracy/report_reference.h"
 #include "accuracy/report_run.h"
 
 namespace pellucid::accuracy {
@@ -170,12 +171,13 @@ std::string stallTable(const ReportData& data) {
 std::string referenceTable(const ReportData& data) {
     std::string rows;
     for (const ReferenceFacts& r : data.references)
-        rows += row({name(r.filter), fmt::format("{:.1e}", r.reachedBound), fmt::format("{:.4g}", r.stepMm),
-                     fmt::format("{:.1f}", r.ms / 1000.0)});
+        rows += row({referenceName(r.kind), fmt::format("{:.1e}", r.reachedBound),
+                     fmt::format("{:.4g}", r.stepMm), fmt::format("{:.1f}", r.ms / 1000.0)});
     return heading("references", "References") +
            "<p>Drawn in double precision on the processor by independent code, the step halved until two "
            "pictures differ by "
-           "less than a bound. Each filter has its own.</p>\n" +
+           "less than a bound. Each filter has its own; VTK's volume ends at the outer voxel centres, half a "
+           "voxel inside ours, and so its pictures have one too.</p>\n" +
            table({"filter", "largest difference of the last two", "step, mm", "s"}, rows);
 }
 
@@ -222,7 +224,10 @@ std::string pictures(const ReportData& data, const ReadPicture& readPicture) {
             html += "<figure>" + images + "<figcaption>" + caption + "</figcaption></figure>\n";
     };
     const Filter own = data.scope.filters.front();
-    figure(image(readPicture, referenceFile(own), "reference"), fmt::format("Reference, {}", name(own)));
+    for (const ReferenceFacts& r : data.references)
+        if (r.kind.filter == own || r.kind.peers)
+            figure(image(readPicture, referenceFile(r.kind), "reference"),
+                   "Reference, " + referenceName(r.kind));
     for (const Measurement& m : data.measurements) {
         if (!isShown(m.setting, data.scope)) continue;
         const std::string name = settingName(m.setting);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report_plan.h"
+#include "accuracy/report_reference.h"
 
 namespace pellucid::accuracy {
 namespace {
@@ -174,7 +175,8 @@ std::vector<Stall> stallsFromJson(const Json& json) {
 Json reportJson(const ReportData& data, const ReportAnalysis& analysis) {
     Json references = Json::array();
     for (const ReferenceFacts& r : data.references)
-        references.push_back({{"filter", name(r.filter)},
+        references.push_back({{"filter", name(r.kind.filter)},
+                              {"name", referenceName(r.kind)},
                               {"reachedBound", r.reachedBound},
                               {"stepMm", r.stepMm},
                               {"time", {{"ms", r.ms}}}});

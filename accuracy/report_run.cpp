@@ -11,9 +11,9 @@
 #include "accuracy/machine_info.h"
 #include "accuracy/metrics.h"
 #include "accuracy/peers/peer.h"
-#include "accuracy/reference.h"
 #include "accuracy/report_json.h"
 #include "accuracy/report_plan.h"
+#include "accuracy/report_reference.h"
 #include "accuracy/report_stalls.h"
 #include "accuracy/report_store.h"
 #include "scene/scene_json.h"
@@ -92,8 +92,8 @@ private:
         return fmt::format("{}; {}x{}, {} frames", settingName(setting), m_job.scope.pictureSize.x,
                            m_job.scope.pictureSize.y, m_job.scope.warmFrames);
     }
-    std::string referenceKey(Filter filter) const {
-        return fmt::format("reference {}; {}x{}, bound {:g}, {} halvings", name(filter),
+    std::string referenceKey(const ReferenceKind& kind) const {
+        return fmt::format("{}; {}x{}, bound {:g}, {} halvings", referenceStem(kind),
                            m_job.scope.pictureSize.x, m_job.scope.pictureSize.y, m_job.scope.referenceBound,
                            m_job.scope.referenceHalvings);
     }
@@ -125,49 +125,50 @@ private:
     }
 
     void addReferences(ReportData& data) const {
-        for (const Filter filter : m_job.scope.filters)
-            if (const nlohmann::json* known = m_store.find(referenceKey(filter)))
-                data.references.push_back({filter, known->value("reachedBound", 0.0),
+        std::vector<ReferenceKind> kinds;
+        for (const Filter filter : m_job.scope.filters) kinds.push_back({filter});
+        if (m_job.scope.peers)
+            for (const bool lightAtEye : {false, true})
+                kinds.push_back({Filter::Trilinear, true, lightAtEye});
+        for (const ReferenceKind& kind : kinds)
+            if (const nlohmann::json* known = m_store.find(referenceKey(kind)))
+                data.references.push_back({kind, known->value("reachedBound", 0.0),
                                            known->value("stepMm", 0.0), known->value("ms", 0.0)});
     }
 
-    /// Kept in memory for one filter at a time, and in a file for the next run.
-    Result<const ImageF*> referenceFor(Filter filter) {
-        if (m_reference && m_referenceFilter == filter) return &*m_reference;
-        const std::filesystem::path file = m_job.folder / (std::string("reference-") + name(filter) + ".pfm");
+    /// Kept in memory one at a time, and in a file for the next run.
+    Result<const ImageF*> referenceFor(const ReferenceKind& kind) {
+        if (m_reference && m_referenceKind == kind) return &*m_reference;
+        const std::filesystem::path file = m_job.folder / (referenceStem(kind) + ".pfm");
         m_reference.reset();
-        if (m_store.find(referenceKey(filter)) != nullptr) {
+        if (m_store.find(referenceKey(kind)) != nullptr) {
             auto read = m_job.files.readFloat(file);
             if (read && read->size == m_job.scope.pictureSize) m_reference = std::move(*read);
         }
         if (!m_reference) {
-            if (auto made = makeReference(filter, file); !made) return tl::unexpected(made.error());
+            if (auto made = makeReference(kind, file); !made) return tl::unexpected(made.error());
         }
-        m_referenceFilter = filter;
+        m_referenceKind = kind;
         return &*m_reference;
     }
 
-    Result<void> makeReference(Filter filter, const std::filesystem::path& file) {
-        ReportSetting setting;
-        setting.filter = filter;
-        setting.stepVoxels = 1.0;
+    Result<void> makeReference(const ReferenceKind& kind, const std::filesystem::path& file) {
         ReferenceOptions options;
         options.bound = m_job.scope.referenceBound;
         options.maxHalvings = m_job.scope.referenceHalvings;
         options.progress = progress();
         const auto start = Clock::now();
-        auto reference = referencePicture(sceneWith(m_job.scene, setting, m_job.scope.pictureSize),
-                                          {m_job.volume}, options);
+        auto reference = drawReference(m_job.scene, m_job.volume, kind, m_job.scope.pictureSize, options);
         if (!reference) return tl::unexpected(reference.error());
         const nlohmann::json facts{
             {"reachedBound", reference->reachedBound}, {"stepMm", reference->stepMm}, {"ms", msSince(start)}};
         if (auto written = m_job.files.writeFloat(file, reference->image); !written) return written;
-        if (auto written = m_job.files.writePng(m_job.folder / "pictures" / referenceFile(filter),
+        if (auto written = m_job.files.writePng(m_job.folder / "pictures" / referenceFile(kind),
                                                 quantise(reference->image, false, false));
             !written)
             return written;
         m_reference = std::move(reference->image);
-        return m_store.add(referenceKey(filter), facts);
+        return m_store.add(referenceKey(kind), facts);
     }
 
     Result<Drawn> drawOwn(const Scene& scene, Measurement& m) {
@@ -204,7 +205,7 @@ private:
     }
 
     Result<void> measureOne(const ReportSetting& setting) {
-        const auto reference = referenceFor(setting.filter);
+        const auto reference = referenceFor(referenceOf(setting, m_job.scene));
         if (!reference) return tl::unexpected(reference.error());
         const Scene scene = sceneWith(m_job.scene, setting, m_job.scope.pictureSize);
         Measurement m;
@@ -241,7 +242,7 @@ private:
     ReportStore m_store;
     Clock::time_point m_start;
     std::optional<ImageF> m_reference;
-    Filter m_referenceFilter = Filter::Trilinear;
+    ReferenceKind m_referenceKind;
     double m_fraction = 0.0;
     std::string m_what;
 };
@@ -256,8 +257,8 @@ std::string differenceFile(const ReportSetting& setting) {
     return fileStem(setting) + "-difference.png";
 }
 
-std::string referenceFile(Filter filter) {
-    return std::string("reference-") + name(filter) + ".png";
+std::string referenceFile(const ReferenceKind& kind) {
+    return referenceStem(kind) + ".png";
 }
 
 Result<ReportData> measureReport(const ReportJob& job, renderer::Renderer& renderer) {

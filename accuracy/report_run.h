@@ -33,7 +33,7 @@ inline constexpr double kDifferenceGain = 32.0;
 /// Name of a setting's picture in folder/pictures, and of its difference to the reference.
 [[nodiscard]] std::string pictureFile(const ReportSetting& setting);
 [[nodiscard]] std::string differenceFile(const ReportSetting& setting);
-[[nodiscard]] std::string referenceFile(Filter filter);
+[[nodiscard]] std::string referenceFile(const ReferenceKind& kind);
 
 /// Measures what is not yet in the folder. Errors: Cancelled (what is finished is kept and the next run goes
 /// on), those of the renderer and of files.

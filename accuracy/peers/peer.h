@@ -18,13 +18,14 @@ struct PeerFrames {
 };
 
 /// Nothing when the peers can draw this scene here, else a sentence why not: no display, built without VTK's
-/// volume rendering, or a projection they do not have.
+/// volume rendering, or something in the scene that they do not have.
 [[nodiscard]] std::optional<std::string> whyNoPeers(const Scene& scene, const Volume& volume);
 
 /// Draws one first and some warm frames by the setting's renderer, on a thread of its own with its own
 /// context: same camera, voxels, transfer function, light and sample distance. What cannot be set: VTK's GPU
-/// mapper has an 8-bit frame buffer and ends rays at opacity 1 - 1/255, the fixed-point mapper works in 15
-/// bits, and for both the volume ends at the outer voxel centres. Precondition: the scene is completed and
+/// mapper has an 8-bit frame buffer, ends rays at opacity 1 - 1/255 and has its headlight at the eye; the
+/// fixed-point mapper works in 15 bits and lights at the voxels; and for both the volume ends at the outer
+/// voxel centres (ReferenceKind). Precondition: the scene is completed and
 /// drawn at `setting`, and whyNoPeers() is empty.
 [[nodiscard]] Result<PeerFrames> drawByPeer(const Scene& scene, const Volume& volume,
                                             const ReportSetting& setting, int warmFrames);

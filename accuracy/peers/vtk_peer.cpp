@@ -8,6 +8,7 @@
 #include <vtkFixedPointVolumeRayCastMapper.h>
 #include <vtkGPUVolumeRayCastMapper.h>
 #include <vtkImageData.h>
+#include <vtkLight.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPiecewiseFunction.h>
@@ -22,6 +23,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <thread>
 
 #include "accuracy/peers/peer.h"
@@ -115,6 +117,10 @@ void setCamera(const Scene& scene, const Grid& grid, vtkRenderer& renderer) {
     } else {
         camera->SetViewAngle(glm::degrees(2.0 * std::atan(glm::length(frame.up))));
     }
+    // VTK 9.1 reads a renderer's last aspect before it has set one: a second renderer in the memory of the
+    // first keeps an aspect of 1.
+    camera->UseExplicitAspectRatioOn();
+    camera->SetExplicitAspectRatio(static_cast<double>(scene.picture.size.x) / scene.picture.size.y);
     camera->SetClippingRange(std::max(distance - 2.0 * radiusMm(grid), 0.01 * distance),
                              distance + 2.0 * radiusMm(grid));
 }
@@ -204,6 +210,11 @@ PeerFrames drawFrames(const Scene& scene, const Volume& volume, const ReportSett
     window->SwapBuffersOff();
     window->AddRenderer(renderer);
     setCamera(scene, volume.grid(), *renderer);
+    // A light has no ambient part by default, and only the fixed-point mapper asks for it.
+    vtkNew<vtkLight> headlight;
+    headlight->SetLightTypeToHeadlight();
+    headlight->SetAmbientColor(1.0, 1.0, 1.0);
+    renderer->AddLight(headlight);
 
     PeerFrames frames;
     vtkNew<vtkUnsignedCharArray> pixels;
@@ -227,11 +238,17 @@ PeerFrames drawFrames(const Scene& scene, const Volume& volume, const ReportSett
 
 }  // namespace
 
-std::optional<std::string> whyNoPeers(const Scene& scene, const Volume&) {
+std::optional<std::string> whyNoPeers(const Scene& scene, const Volume& volume) {
     Display* display = XOpenDisplay(nullptr);
     if (display == nullptr)
-        return "Peers were left out: VTK draws on an X display only, and there is none (xvfb-run gives one).";
+        return "Peers were left out: VTK draws on an X display only, and there is none (put xvfb-run -a "
+               "before the command).";
     XCloseDisplay(display);
+    if (glm::any(glm::lessThan(volume.grid().size, glm::ivec3(2))))
+        return "Peers were left out: to VTK a volume of one voxel across is empty.";
+    if (volume.nonFiniteCount() > 0)
+        return "Peers were left out: VTK does not say what it draws where a voxel is no number.";
+    if (isSheared(volume.grid())) return "Peers were left out: VTK takes no sheared grid.";
     if (scene.mode != Mode::Composite && scene.mode != Mode::Mip)
         return fmt::format(
             "Peers were left out: they are compared in composite and mip, and this scene is {}.",
