@@ -97,8 +97,12 @@ ExtremeRow verifyExtreme(renderer::Renderer& renderer, const ExtremeCase& extrem
 }
 
 Result<std::vector<ExtremeRow>> verifyExtremes(renderer::Renderer& renderer, const Progress& progress,
-                                               const std::function<void(const ExtremeRow&)>& found) {
-    const auto cases = extremeCases();
+                                               const std::function<void(const ExtremeRow&)>& found,
+                                               const std::string& named) {
+    auto cases = extremeCases();
+    std::erase_if(cases, [&](const ExtremeCase& c) { return c.name.find(named) == std::string::npos; });
+    if (cases.empty())
+        return fail(ErrorCode::InvalidArgument, fmt::format("no extreme case's name holds \"{}\"", named));
     std::vector<ExtremeRow> rows;
     for (const ExtremeCase& extreme : cases) {
         if (!goOn(progress, static_cast<double>(rows.size()) / static_cast<double>(cases.size()),

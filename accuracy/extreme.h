@@ -59,11 +59,12 @@ struct ExtremeRow {
 };
 
 /// Draws every case and measures its error; a number that is not finite fails. Some 60 s on two cores.
-/// `found` is given each row once it is there. Errors: Cancelled. That a case is refused, rightly or wrongly,
+/// `found` is given each row once it is there; `named` leaves only the cases whose name holds it. Errors:
+/// Cancelled, InvalidArgument (no such case). That a case is refused, rightly or wrongly,
 /// is a row.
 [[nodiscard]] Result<std::vector<ExtremeRow>> verifyExtremes(
     renderer::Renderer& renderer, const Progress& progress = {},
-    const std::function<void(const ExtremeRow&)>& found = {});
+    const std::function<void(const ExtremeRow&)>& found = {}, const std::string& named = {});
 [[nodiscard]] ExtremeRow verifyExtreme(renderer::Renderer& renderer, const ExtremeCase& extreme);
 
 [[nodiscard]] bool allPassed(std::span<const ExtremeRow> rows);

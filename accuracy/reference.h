@@ -19,8 +19,8 @@ struct ReferenceOptions {
     double bound =
         1e-5;  ///< Asked for: halve the step until two successive pictures differ by less, anywhere.
     int maxHalvings = 8;
-    double insetVoxels = 0.0;  ///< The volume ends this far inside the box that its voxels fill, in [0, 0.5].
     Progress progress;
+    double insetVoxels = 0.0;  ///< The volume ends this far inside the box that its voxels fill, in [0, 0.5].
 };
 
 /// The same optical model as the renderer, integrated on the CPU in double precision by independent code (no

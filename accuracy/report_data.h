@@ -21,7 +21,8 @@ struct ReportSetting {
     Accumulation accumulation = Accumulation::Float32;
     bool jitter = false;
     double stepVoxels = 1.0;
-    std::optional<double> tolerance;  ///< Grey levels; the adaptive integrator only.
+    std::optional<double> tolerance;  ///< Grey levels; the adaptive integrator and `automatic` only.
+    bool automatic = false;           ///< Step and integrator are the renderer's choice for the tolerance.
     bool operator==(const ReportSetting&) const = default;
 };
 

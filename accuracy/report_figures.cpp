@@ -18,11 +18,12 @@ bool isPlain(const ReportSetting& s) {
     return !isPeer(s) && !s.jitter && s.accumulation == Accumulation::Float32;
 }
 bool isExponential(const ReportSetting& s) {
-    return !isPeer(s) && s.integrator == Integrator::Exponential;
+    return !isPeer(s) && !s.automatic && s.integrator == Integrator::Exponential;
 }
 
 /// Peers take the styles after the integrators'.
 int styleOf(const ReportSetting& s) {
+    if (s.automatic) return 12;
     if (!isPeer(s)) return static_cast<int>(s.integrator);
     if (s.renderer == "vtk-fixed-point") return 10;
     return s.jitter ? 11 : 9;
@@ -59,7 +60,7 @@ std::vector<double> levels() {
 }
 
 std::string integratorOrPeer(const ReportSetting& s) {
-    std::string text = isPeer(s) ? s.renderer : name(s.integrator);
+    std::string text = methodName(s);
     if (s.jitter) text += ", jitter";
     return text;
 }
@@ -69,8 +70,8 @@ int ownStyle(const ReportSetting& s, int) {
 }
 /// Formats, filters and jitter have no colour of their own: well apart ones in their order.
 int styleInTurn(const ReportSetting&, int index) {
-    constexpr int kStyles[] = {1, 5, 3, 6};
-    return kStyles[index % 4];
+    constexpr int kStyles[] = {1, 5, 3, 6, 0, 4, 7, 2};
+    return kStyles[index % 8];
 }
 
 }  // namespace

@@ -145,12 +145,15 @@ std::string toleranceTable(const ReportData& data) {
     std::string rows;
     for (const Measurement& m : data.measurements)
         if (m.setting.tolerance)
-            rows += row({escaped(seriesName(m.setting)), fmt::format("{:g}", *m.setting.tolerance),
-                         fmt::format("{:.2f}", 255.0 * m.maxError), fmt::format("{:.3f}", 255.0 * m.rmse),
-                         msText(m.wallMs), 255.0 * m.maxError <= *m.setting.tolerance ? "yes" : "NO"});
+            rows += row(
+                {escaped(seriesName(m.setting)), fmt::format("{:g}", *m.setting.tolerance),
+                 fmt::format("{:.2f}", 255.0 * m.maxError), fmt::format("{:.3f}", 255.0 * m.rmse),
+                 msText(m.wallMs),
+                 255.0 * (m.setting.automatic ? m.rmse : m.maxError) <= *m.setting.tolerance ? "yes" : "NO"});
     if (rows.empty()) return {};
-    return heading("tolerances", "Tolerances of the adaptive integrator") +
-           "<p>Grey levels asked for, and the largest error found.</p>\n" +
+    return heading("tolerances", "Tolerances") +
+           "<p>Grey levels asked for and found. The adaptive integrator keeps the largest error below the "
+           "tolerance, automatic the RMSE.</p>\n" +
            table({"setting", "asked", "max", "RMSE", "ms", "met"}, rows);
 }
 
@@ -161,10 +164,13 @@ std::string stallTable(const ReportData& data) {
                      fmt::format("{:.4f}", s.exact), fmt::format("{:.4f}", s.predicted),
                      fmt::format("{:.4f}", s.drawn)});
     return heading("stalls", "Stalls of the accumulation formats") +
-           "<p>Opacity of many faint layers in front of each other. A format stops growing where a layer "
-           "adds less than half "
-           "of its last place: there the drawn opacity stays below the exact one, however many layers "
-           "follow.</p>\n" +
+           "<p>The opacity A of many faint layers of opacity a in front of each other: each layer adds "
+           "a (1 - A). A format that rounds to nearest keeps A as it is once that is less than half the "
+           "distance u to the next number it holds, so A stops at 1 - u / (2 a), however many layers "
+           "follow: u = 1/255 in 8 bits, 2^-11 in half floats between 1/2 and 1. Where 1 - u / (2 a) is "
+           "below 0, not even the first layer is seen. 32-bit floats (u = 2^-24) reach the exact value "
+           "here. In the plot of the formats above the same shows as curves that rise again to the left."
+           "</p>\n" +
            table({"format", "opacity of a layer", "layers", "exact", "predicted", "drawn"}, rows);
 }
 
@@ -190,10 +196,14 @@ std::string measurementTable(const ReportData& data) {
                      fmt::format("{:.2e}", m.maxError), fmt::format("{:.2e}", m.rmse),
                      std::isfinite(m.psnr) ? fmt::format("{:.1f}", m.psnr) : "&infin;",
                      fmt::format("{:.5f}", m.ssim)});
-    return heading("measurements", "All measurements") +
-           "<p>The first frame compiles, uploads and builds tables where no setting before it did; GPU time "
-           "is that of the draws alone "
-           "(on a software driver: the clock around them). Memory is what the plan allots.</p>\n" +
+    return heading("measurements", "All measurements") + "<p>" +
+           "The first frame compiles, uploads and builds tables where no setting before it did; GPU time "
+           "is that of the draws alone" +
+           (data.machine.software
+                ? ", which this software driver's timer does not tell: it is the wall clock "
+                  "around them"
+                : "") +
+           ". Memory is what the plan allots.</p>\n" +
            table({"setting", "first, ms", "wall, ms", "GPU, ms", "MiB", "max", "RMSE", "PSNR, dB", "SSIM"},
                  rows);
 }

@@ -36,7 +36,8 @@ Json settingJson(const ReportSetting& s) {
             {"accumulation", name(s.accumulation)},
             {"jitter", s.jitter},
             {"stepVoxels", s.stepVoxels},
-            {"toleranceGreyLevels", orNull(s.tolerance)}};
+            {"toleranceGreyLevels", orNull(s.tolerance)},
+            {"automatic", s.automatic}};
 }
 
 std::optional<ReportSetting> settingFromJson(const Json& json) {
@@ -50,7 +51,8 @@ std::optional<ReportSetting> settingFromJson(const Json& json) {
                     *accumulation,
                     json.at("jitter").get<bool>(),
                     json.at("stepVoxels").get<double>(),
-                    std::nullopt};
+                    std::nullopt,
+                    json.at("automatic").get<bool>()};
     if (json.at("toleranceGreyLevels").is_number())
         s.tolerance = json.at("toleranceGreyLevels").get<double>();
     return s;
@@ -224,12 +226,14 @@ std::string reportCsv(const ReportData& data, const ReportAnalysis& analysis) {
         const bool onFront = std::any_of(
             analysis.fronts.begin(), analysis.fronts.end(),
             [i](const auto& front) { return std::find(front.begin(), front.end(), i) != front.end(); });
-        csv +=
-            fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{},{},{},{},{},{},{},{}\n", s.renderer,
-                        s.renderer == "pellucid" ? name(s.integrator) : "", name(s.filter),
-                        s.renderer == "pellucid" ? name(s.accumulation) : "", s.jitter ? 1 : 0, s.stepVoxels,
-                        m.stepMm, optional(s.tolerance), m.firstMs, m.wallMs, optional(m.gpuMs), m.warmFrames,
-                        optional(m.bytes), m.maxError, m.rmse, m.psnr, m.ssim, onFront ? 1 : 0);
+        csv += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{},{},{},{},{},{},{},{}\n", s.renderer,
+                           s.renderer != "pellucid" ? ""
+                           : s.automatic            ? "automatic"
+                                                    : name(s.integrator),
+                           name(s.filter), s.renderer == "pellucid" ? name(s.accumulation) : "",
+                           s.jitter ? 1 : 0, s.stepVoxels, m.stepMm, optional(s.tolerance), m.firstMs,
+                           m.wallMs, optional(m.gpuMs), m.warmFrames, optional(m.bytes), m.maxError, m.rmse,
+                           m.psnr, m.ssim, onFront ? 1 : 0);
     }
     return csv;
 }

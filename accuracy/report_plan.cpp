@@ -19,12 +19,12 @@ std::vector<E> allOf() {
     return values;
 }
 
-/// The scene's own and all others that make a field of their own.
-std::vector<Filter> filtersOf(const Scene& scene) {
+/// The scene's own first. Filters that make another one's field by other means are there for comparison.
+std::vector<Filter> filtersOf(const Scene& scene, bool withComparisons) {
     const Filter own = scene.volumes.front().filter;
     std::vector<Filter> filters{own};
     for (const Filter filter : allOf<Filter>())
-        if (filter != own && fieldOf(filter) == filter) filters.push_back(filter);
+        if (filter != own && (withComparisons || fieldOf(filter) == filter)) filters.push_back(filter);
     return filters;
 }
 
@@ -44,7 +44,7 @@ public:
     void add(const ReportSetting& setting) {
         const Scene drawn = sceneWith(m_scene, setting, m_scene.picture.size);
         const Known known{renderer::featuresOf(drawn), m_scene.mode == Mode::Slice ? 0.0 : setting.stepVoxels,
-                          setting.tolerance};
+                          setting.tolerance, setting.automatic};
         const bool ownFeatures = known.features.integrator == setting.integrator &&
                                  known.features.jitter == setting.jitter &&
                                  known.features.accumulation == setting.accumulation;
@@ -60,6 +60,7 @@ private:
         renderer::Features features;
         double step = 0.0;
         std::optional<double> tolerance;
+        bool automatic = false;
         bool operator==(const Known&) const = default;
     };
     const Scene& m_scene;
@@ -67,7 +68,7 @@ private:
 };
 
 void addSteps(SettingList& list, ReportSetting setting, const ReportScope& scope) {
-    if (setting.integrator == Integrator::Adaptive) {
+    if (setting.integrator == Integrator::Adaptive || setting.automatic) {
         setting.stepVoxels = 1.0;
         for (const double tolerance : scope.tolerances) {
             setting.tolerance = tolerance;
@@ -99,7 +100,7 @@ void addPeers(std::vector<ReportSetting>& settings, const ReportScope& scope) {
 ReportScope fullScope(const Scene& scene) {
     ReportScope scope;
     scope.integrators = allOf<Integrator>();
-    scope.filters = filtersOf(scene);
+    scope.filters = filtersOf(scene, true);
     scope.accumulations = allOf<Accumulation>();
     scope.steps = {4.0, 2.0, 1.0, 0.5, 0.25, 0.125};
     scope.tolerances = {8.0, 4.0, 2.0, 1.0, 0.5, 0.25};
@@ -109,6 +110,7 @@ ReportScope fullScope(const Scene& scene) {
 
 ReportScope quickScope(const Scene& scene) {
     ReportScope scope = fullScope(scene);
+    scope.filters = filtersOf(scene, false);
     scope.steps = {4.0, 2.0, 1.0, 0.5};
     scope.tolerances = {4.0, 1.0};
     scope.pictureSize = atMost(scene.picture.size, 128);
@@ -122,6 +124,7 @@ ReportScope quickScope(const Scene& scene) {
                     scope.pictureSize.y, scene.picture.size.x, scene.picture.size.y),
         "Steps are 4 to 1/2 voxel instead of 4 to 1/8.",
         "Times are medians of at most 2 warm frames instead of 5.",
+        "Filters that make the field of another one by other means are left out.",
         "Other filters and accumulation formats are measured with the exponential integrator only.",
         "References are halved once, with a bound of 1e-4 asked for; the bound reached is stated.",
         "Nothing new is begun after 45 seconds; running the command again measures the rest."};
@@ -141,6 +144,12 @@ std::vector<ReportSetting> reportSettings(const Scene& scene, const ReportScope&
     constexpr Accumulation kFloat = Accumulation::Float32;
     const Filter own = scope.filters.front();
     for (const Integrator integrator : scope.integrators) add(own, kFloat, integrator, false);
+    if (usesTransferFunction(scene.mode)) {
+        ReportSetting automatic;
+        automatic.filter = own;
+        automatic.automatic = true;
+        addSteps(list, automatic, scope);
+    }
     for (const Accumulation accumulation : scope.accumulations)
         add(own, accumulation, Integrator::Exponential, false);
     add(own, kFloat, Integrator::Exponential, true);
@@ -148,8 +157,10 @@ std::vector<ReportSetting> reportSettings(const Scene& scene, const ReportScope&
     if (scope.crossed) {
         for (const Filter filter : scope.filters)
             for (const Accumulation accumulation : scope.accumulations)
-                for (const Integrator integrator : scope.integrators)
-                    add(filter, accumulation, integrator, false);
+                // Another filter's field by other means: the same errors again.
+                if (fieldOf(filter) == filter || filter == own)
+                    for (const Integrator integrator : scope.integrators)
+                        add(filter, accumulation, integrator, false);
     }
     if (scope.peers) addPeers(list.settings, scope);
     return list.settings;
@@ -164,6 +175,8 @@ Scene sceneWith(const Scene& scene, const ReportSetting& setting, glm::ivec2 siz
     result.quality.stepVoxels = setting.stepVoxels;
     result.quality.stepMm.reset();
     result.quality.toleranceGreyLevels = setting.tolerance;
+    result.quality.toleranceNorm = ErrorNorm::Rmse;
+    result.quality.automatic = setting.automatic;
     result.quality.earlyTermination = kReportTermination;
     // A height in mm stays; only the number of pixels changes.
     result.picture.size = size;
@@ -171,11 +184,16 @@ Scene sceneWith(const Scene& scene, const ReportSetting& setting, glm::ivec2 siz
     return result;
 }
 
+std::string methodName(const ReportSetting& setting) {
+    if (setting.renderer != "pellucid") return setting.renderer;
+    return setting.automatic ? "automatic" : name(setting.integrator);
+}
+
 std::string seriesName(const ReportSetting& setting) {
-    std::string text = setting.renderer == "pellucid"
-                           ? fmt::format("{}, {}, {}", name(setting.integrator), name(setting.filter),
-                                         name(setting.accumulation))
-                           : setting.renderer;
+    std::string text =
+        setting.renderer == "pellucid"
+            ? fmt::format("{}, {}, {}", methodName(setting), name(setting.filter), name(setting.accumulation))
+            : setting.renderer;
     if (setting.jitter) text += ", jitter";
     return text;
 }

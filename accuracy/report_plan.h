@@ -26,6 +26,8 @@ inline constexpr double kReportTermination = 1e-5;
 /// The scene drawn by a setting. `size`: of the picture.
 [[nodiscard]] Scene sceneWith(const Scene& scene, const ReportSetting& setting, glm::ivec2 size);
 
+/// "simpson", "automatic", "vtk-gpu".
+[[nodiscard]] std::string methodName(const ReportSetting& setting);
 /// "simpson, trilinear, float32, step 0.5": unique, and the key under which a measurement is kept.
 [[nodiscard]] std::string settingName(const ReportSetting& setting);
 /// What the settings along one curve share: the same without step or tolerance.

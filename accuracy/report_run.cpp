@@ -126,7 +126,8 @@ private:
 
     void addReferences(ReportData& data) const {
         std::vector<ReferenceKind> kinds;
-        for (const Filter filter : m_job.scope.filters) kinds.push_back({filter});
+        for (const Filter filter : m_job.scope.filters)
+            if (fieldOf(filter) == filter) kinds.push_back({filter});
         if (m_job.scope.peers)
             for (const bool lightAtEye : {false, true})
                 kinds.push_back({Filter::Trilinear, true, lightAtEye});

@@ -18,9 +18,9 @@ constexpr double kLeft = 72, kRight = 640, kTop = 16, kBottom = 376;
 
 /// Distinguishable with the common colour deficiencies (after Okabe and Ito), and by their markers without
 /// colour.
-constexpr std::array<const char*, 12> kColours = {"#8a8f98", "#0067b1", "#3fa9dc", "#00835e",
-                                                  "#86b300", "#c9480a", "#dd9200", "#b85a94",
-                                                  "#20242a", "#6a3fa0", "#8c5a2b", "#a98bd0"};
+constexpr std::array<const char*, 13> kColours = {"#8a8f98", "#0067b1", "#3fa9dc", "#00835e", "#86b300",
+                                                  "#c9480a", "#dd9200", "#b85a94", "#20242a", "#6a3fa0",
+                                                  "#8c5a2b", "#a98bd0", "#d01c3a"};
 
 /// One logarithmic axis onto the drawing.
 struct Axis {

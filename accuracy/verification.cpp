@@ -69,7 +69,7 @@ Result<Verification> verify(renderer::Renderer& renderer, const VerificationPart
         std::move(rows->begin(), rows->end(), std::back_inserter(all));
     }
     if (asked.extreme) {
-        auto rows = verifyExtremes(renderer, parts.next(kExtremeSeconds), tell);
+        auto rows = verifyExtremes(renderer, parts.next(kExtremeSeconds), tell, asked.extremeNamed);
         if (!rows) return tl::unexpected(rows.error());
         verification.extremes = std::move(*rows);
     }

@@ -15,10 +15,11 @@ namespace pellucid::accuracy {
 
 /// What the self-test is asked to do. Each part takes up to a minute on two cores without a graphics card.
 struct VerificationParts {
-    bool step = true;      ///< Orders under refinement of the step.
-    bool grid = true;      ///< Of the voxel grid.
-    bool pixel = true;     ///< Of the pixel.
-    bool extreme = false;  ///< The stiff and extreme cases.
+    bool step = true;            ///< Orders under refinement of the step.
+    bool grid = true;            ///< Of the voxel grid.
+    bool pixel = true;           ///< Of the pixel.
+    bool extreme = false;        ///< The stiff and extreme cases.
+    std::string extremeNamed{};  ///< Only the extreme cases whose name holds this text.
 };
 
 /// What the self-test found. A suite that was not asked for is absent.

@@ -7,6 +7,7 @@
 
 #include "accuracy/report_analysis.h"
 #include "accuracy/report_plan.h"
+#include "accuracy/report_reference.h"
 #include "accuracy/report_svg.h"
 
 namespace pellucid::accuracy {
@@ -87,20 +88,48 @@ Scene compositeScene(Mode mode = Mode::Composite) {
 TEST(ReportPlan, CoversEveryCombinationOnce) {
     const Scene scene = compositeScene();
     const auto settings = reportSettings(scene, fullScope(scene));
-    // 8 integrators with 6 steps and one with 6 tolerances, 5 filters, 3 formats; and 6 steps with jitter.
-    EXPECT_EQ(settings.size(), 9u * 6 * 5 * 3 + 6);
+    // 8 integrators with 6 steps and one with 6 tolerances, 5 filters, 3 formats; 3 more filters with one
+    // integrator and format; 6 steps with jitter and 6 tolerances for automatic.
+    EXPECT_EQ(settings.size(), 9u * 6 * 5 * 3 + 3 * 6 + 6 + 6);
     std::set<std::string> names;
     for (const ReportSetting& setting : settings) names.insert(settingName(setting));
     EXPECT_EQ(names.size(), settings.size());
 }
 
+TEST(ReportPlan, ASceneThatChoosesItselfIsMeasuredAtEachSetting) {
+    Scene scene = compositeScene();
+    scene.quality.automatic = true;
+    scene.quality.stepMm = 3.0;
+    for (const ReportSetting& setting : reportSettings(scene, quickScope(scene))) {
+        const Quality quality = sceneWith(scene, setting, {8, 8}).quality;
+        EXPECT_EQ(quality.automatic, methodName(setting) == "automatic");
+        EXPECT_EQ(quality.toleranceGreyLevels, setting.tolerance);
+        EXPECT_FALSE(quality.stepMm);
+    }
+}
+
+TEST(ReportReference, IsThatOfTheSameFieldAndLight) {
+    Scene scene = compositeScene();
+    scene.lights->clear();
+    ReportSetting setting;
+    setting.filter = Filter::TricubicBSplineLut;
+    EXPECT_EQ(referenceOf(setting, scene), (ReferenceKind{Filter::TricubicBSpline, false, false}));
+    setting = {};
+    setting.renderer = "vtk-gpu";
+    EXPECT_EQ(referenceOf(setting, scene), (ReferenceKind{Filter::Trilinear, true, false}));
+    scene.lights->emplace_back();
+    EXPECT_EQ(referenceOf(setting, scene), (ReferenceKind{Filter::Trilinear, true, true}));
+    setting.renderer = "vtk-fixed-point";
+    EXPECT_EQ(referenceOf(setting, scene), (ReferenceKind{Filter::Trilinear, true, false}));
+}
+
 TEST(ReportPlan, LeavesOutWhatAProjectionDoesNotHave) {
     const Scene mip = compositeScene(Mode::Mip);
     const auto settings = reportSettings(mip, fullScope(mip));
-    EXPECT_EQ(settings.size(), 6u * 5 + 6);  // Steps and filters; and jitter.
+    EXPECT_EQ(settings.size(), 6u * 8 + 6);  // Steps and filters; and jitter.
     for (const ReportSetting& setting : settings) EXPECT_EQ(setting.integrator, Integrator::Exponential);
     const Scene slice = compositeScene(Mode::Slice);
-    EXPECT_EQ(reportSettings(slice, fullScope(slice)).size(), 5u);
+    EXPECT_EQ(reportSettings(slice, fullScope(slice)).size(), 8u);
 }
 
 TEST(ReportPlan, QuickSaysWhatItLeftOut) {

@@ -12,7 +12,8 @@ using testing::HasSubstr;
 class Usage : public ProgramTest {};
 
 TEST_F(Usage, HelpOfEveryCommandTeachesWithExamples) {
-    for (const std::string command : {"", "render", "info", "plan", "compare", "report", "resample"}) {
+    for (const std::string command :
+         {"", "render", "info", "plan", "compare", "report", "resample", "verify"}) {
         const Outcome outcome = command.empty() ? run({"--help"}) : run({command, "--help"});
         SCOPED_TRACE(command);
         EXPECT_EQ(outcome.status, 0);
