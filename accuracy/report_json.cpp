@@ -107,19 +107,19 @@ Json frontsJson(const ReportData& data, const ReportAnalysis& analysis) {
 }  // namespace
 
 Json measurementJson(const Measurement& m) {
-    return {{"setting", settingJson(m.setting)},
-            {"stepMm", m.stepMm},
-            {"bytes", orNull(m.bytes)},
-            {"time",
-             {{"firstMs", m.firstMs},
-              {"wallMs", m.wallMs},
-              {"gpuMs", orNull(m.gpuMs)},
-              {"warmFrames", m.warmFrames}}},
-            {"error",
-             {{"max", m.maxError},
-              {"rmse", m.rmse},
-              {"psnr", std::isfinite(m.psnr) ? Json(m.psnr) : Json()},
-              {"ssim", m.ssim}}}};
+    Json json{{"setting", settingJson(m.setting)}, {"stepMm", m.stepMm}};
+    json["time"] = {{"firstMs", m.firstMs},
+                    {"wallMs", m.wallMs},
+                    {"gpuMs", orNull(m.gpuMs)},
+                    {"warmFrames", m.warmFrames}};
+    // What automatic chooses follows from times, and with it all else.
+    Json& found = m.setting.automatic ? json["time"] : json;
+    found["bytes"] = orNull(m.bytes);
+    found["error"] = {{"max", m.maxError},
+                      {"rmse", m.rmse},
+                      {"psnr", std::isfinite(m.psnr) ? Json(m.psnr) : Json()},
+                      {"ssim", m.ssim}};
+    return json;
 }
 
 std::optional<Measurement> measurementFromJson(const Json& json) {
@@ -127,11 +127,12 @@ std::optional<Measurement> measurementFromJson(const Json& json) {
         const auto setting = settingFromJson(json.at("setting"));
         if (!setting) return std::nullopt;
         const Json& time = json.at("time");
-        const Json& error = json.at("error");
+        const Json& found = setting->automatic ? time : json;
+        const Json& error = found.at("error");
         Measurement m;
         m.setting = *setting;
         m.stepMm = json.at("stepMm").get<double>();
-        if (json.at("bytes").is_number()) m.bytes = json.at("bytes").get<std::uint64_t>();
+        if (found.at("bytes").is_number()) m.bytes = found.at("bytes").get<std::uint64_t>();
         m.firstMs = time.at("firstMs").get<double>();
         m.wallMs = time.at("wallMs").get<double>();
         if (time.at("gpuMs").is_number()) m.gpuMs = time.at("gpuMs").get<double>();
