@@ -79,7 +79,9 @@ public:
         Result<double> ms = 0.0;
         m_thread.run([&] {
             const double start = milliseconds(cpuTime);
-            auto frame = (*m_renderer)->render(scene, {volume});
+            renderer::RenderOptions options;
+            options.tileTargetMs = 1000.0;  // VTK draws a picture at once too
+            auto frame = (*m_renderer)->render(scene, {volume}, options);
             if (frame) {
                 ms = milliseconds(cpuTime) - start;
                 image = std::move(frame->image);

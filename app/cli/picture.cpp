@@ -86,6 +86,7 @@ int makePicture(const PictureJob& job) {
     renderer::RenderOptions options;
     options.progress = consoleProgress();
     options.estimateError = job.estimateError;
+    options.tileTargetMs = 200.0;  // no window waits; Ctrl+C is still heard at once
     const auto drawStart = std::chrono::steady_clock::now();
     const Result<renderer::Frame> frame = renderer->render(loaded->scene, loaded->volumes, options);
     if (!frame) return report(frame.error());

@@ -11,5 +11,5 @@ vec3 gradientMm(vec3 p) {
     vec3 perIndex = 0.5 * vec3(reconstruct(p + dx) - reconstruct(p - dx),
                                reconstruct(p + dy) - reconstruct(p - dy),
                                reconstruct(p + dz) - reconstruct(p - dz));
-    return length(perIndex) > gradientFloor ? gradientFromIndex * perIndex : vec3(0.0);
+    return dot(perIndex, perIndex) > gradientFloor * gradientFloor ? gradientFromIndex * perIndex : vec3(0.0);
 }

@@ -9,8 +9,8 @@ layout(std140, binding = 0) uniform Lights {
 uniform vec4 material;  // ambient, diffuse, specular, shininess
 
 vec3 shade(vec3 color, vec3 gradient, vec3 position, vec3 toViewer) {
-    float steepness = length(gradient);
-    vec3 n = gradient / max(steepness, 1e-30);
+    float steepness = dot(gradient, gradient);
+    vec3 n = gradient * inversesqrt(max(steepness, 1e-37));
     n = dot(n, toViewer) < 0.0 ? -n : n;
     vec3 shown = material.x * color;
     for (int i = 0; i < lightCount; ++i) {
