@@ -199,7 +199,7 @@ Quality refined(const std::vector<Attempt>& attempts) {
         order = std::clamp(order, 0.5, 2.0);
     }
     Quality finer = last.quality;
-    finer.stepVoxels *= std::clamp(std::pow(aim(finer) / last.error, 1.0 / order), 1.0 / 16.0, 0.5);
+    finer.stepVoxels *= std::clamp(std::pow(aim(finer) / last.error, 1.0 / order), 1.0 / 16.0, 0.8);
     return finer;
 }
 

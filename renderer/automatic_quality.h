@@ -29,7 +29,7 @@ struct Attempt {
     Quality quality;
     double error = 0.0;
 };
-/// The settings of the last attempt, which was not good enough, with the step that should be: between half of
+/// The settings of the last attempt, which was not good enough, with the step that should be: between 4/5 of
 /// it and a sixteenth. Errors are taken as the power of the step that the last two attempts show, as
 /// proportional to it after only one. Precondition: at least one attempt.
 [[nodiscard]] Quality refined(const std::vector<Attempt>& attempts);

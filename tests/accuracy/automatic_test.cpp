@@ -153,7 +153,7 @@ renderer::Attempt attempt(double stepVoxels, double greyLevels) {
 }
 
 TEST(AutomaticChoice, RefinementFollowsTheOrderSeenWithinBounds) {
-    EXPECT_EQ(renderer::refined({attempt(1.0, 1.0001)}).stepVoxels, 0.5);
+    EXPECT_EQ(renderer::refined({attempt(1.0, 0.76)}).stepVoxels, 0.8);
     EXPECT_EQ(renderer::refined({attempt(1.0, 1000.0)}).stepVoxels, 1.0 / 16.0);
     EXPECT_NEAR(renderer::refined({attempt(1.0, 4.0)}).stepVoxels, 0.675 / 4.0, 1e-12);
     // Order 2: half the step, a quarter of the error.
