@@ -34,6 +34,13 @@ int voxelsFor(Mode mode, Filter filter) {
     return integrated ? 4 : mode == Mode::Slice ? 12 : 24;
 }
 
+/// So fine that what a step does differently from ray to ray is less than what is measured: a jump of the
+/// value makes the sum over steps jump, too. Fields without kinks need less.
+double stepVoxelsFor(Mode mode, Filter filter) {
+    if (filter == Filter::Nearest) return voxelsFor(mode, filter) == 4 ? 1.0 / 1024.0 : 1.0 / 16.0;
+    return filter == Filter::Trilinear ? 1.0 / 16.0 : 1.0 / 4.0;
+}
+
 OrderRow expectation(Mode mode, Filter filter) {
     OrderRow row{"pixel", name(mode), "", name(filter)};
     row.expected = 2.0;
@@ -82,11 +89,7 @@ Result<std::vector<OrderRow>> verifyPixelOrders(renderer::Renderer& renderer, co
                 Scene scene = verifyScene(mode.value, filter.value, n, kHeightMm);
                 // Rolled, so that no border of voxels is parallel to the pixels.
                 if (filter.value == Filter::Nearest) scene.camera.pose->up = {0.37, 0.0, 1.0};
-                // So fine that what a step does differently from ray to ray is less than what is measured: a
-                // jump of the value makes the sum over steps jump, too.
-                scene.quality.stepVoxels =
-                    filter.value == Filter::Nearest && voxelsFor(mode.value, filter.value) == 4 ? 1.0 / 1024.0
-                                                                                                : 1.0 / 16.0;
+                scene.quality.stepVoxels = stepVoxelsFor(mode.value, filter.value);
                 const auto coarse = pictureOf(renderer, scene, volume);
                 if (!coarse) return tl::unexpected<Error>(coarse.error());
                 scene.picture.size *= 2;
