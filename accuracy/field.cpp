@@ -77,6 +77,9 @@ Field::Field(const Volume& volume, int component, Filter filter)
     });
 }
 
+Field::Field(glm::ivec3 size, Filter filter, std::vector<double> voxels)
+    : m_size(size), m_filter(fieldOf(filter)), m_values(std::move(voxels)) {}
+
 glm::ivec3 Field::cellOf(glm::dvec3 index) const {
     // Nearest: cell i is voxel i, from i - 0.5 on. Otherwise cell i lies between voxels i and i + 1.
     return glm::ivec3(glm::floor(index + cellOffset()));

@@ -18,6 +18,10 @@ public:
     /// Non-finite voxels take the smallest finite stored value. Precondition: the component exists.
     Field(const Volume& volume, int component, Filter filter);
 
+    /// A field of given voxels, i fastest.
+    Field(glm::ivec3 size, Filter filter, std::vector<double> voxels);
+
+    [[nodiscard]] const std::vector<double>& voxels() const { return m_values; }
     [[nodiscard]] glm::ivec3 size() const { return m_size; }
     /// Cells border at cellOffset() + any integer, along each axis in index space: at the voxel centres, and
     /// half-way between them for the nearest filter.

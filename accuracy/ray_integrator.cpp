@@ -65,6 +65,16 @@ RayIntegrator::RayIntegrator(const Scene& scene, const Volume& volume, double in
     if (scene.space == CompositingSpace::Linear)
         for (int channel = 0; channel < 3; ++channel)
             m_background[channel] = linearFromDisplay(m_background[channel]);
+    if (scene.volumes.front().classification == Classification::Pre && scene.mode != Mode::FirstHit &&
+        scene.mode != Mode::Isosurface)
+        m_preClassified = preClassified();
+    m_surfaces = scene.volumes.front().isosurfaces;
+    std::stable_sort(m_surfaces.begin(), m_surfaces.end(),
+                     [](const SurfaceLayer& a, const SurfaceLayer& b) { return a.value < b.value; });
+    if (scene.space == CompositingSpace::Linear)
+        for (SurfaceLayer& surface : m_surfaces)
+            for (int channel = 0; channel < 3; ++channel)
+                surface.color[channel] = linearFromDisplay(surface.color[channel]);
     const ValueRange range = volume.physicalRange(scene.volumes.front().component);
     // The second term: rounding of a filter's weights on a constant field.
     m_vanishingGradient =
@@ -89,6 +99,36 @@ RayIntegrator::Ray RayIntegrator::rayAt(double u, double v) const {
     ray.index.perMm = m_indexFromPatient * ray.direction;
     ray.inside = insideBox(ray.index, m_field.size(), ray.startMm, m_inset);
     return ray;
+}
+
+RayIntegrator::PreClassified RayIntegrator::preClassified() const {
+    std::array<std::vector<double>, 4> fields;
+    for (const double value : m_field.voxels()) {
+        const int piece = m_optics.pieceOf(value);
+        const double extinction = m_optics.extinctionPerMm(piece, value);
+        const glm::dvec3 emission = extinction * m_optics.color(piece, value);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            fields[channel].push_back(emission[static_cast<int>(channel)]);
+        fields[3].push_back(extinction);
+    }
+    const auto field = [&](std::size_t i) {
+        return Field(m_field.size(), m_scene.volumes.front().filter, std::move(fields[i]));
+    };
+    return {field(0), field(1), field(2), field(3)};
+}
+
+RayIntegrator::LocalOptics RayIntegrator::opticsAt(const Ray& ray, const Piece& piece, double t) const {
+    if (!m_preClassified) {
+        const double value = valueAt(ray, piece.cell, t);
+        return {m_optics.color(piece.optics, value), m_optics.extinctionPerMm(piece.optics, value)};
+    }
+    const glm::dvec3 index = ray.index.at(t);
+    const auto at = [&](const Field& field) { return field.value(piece.cell, index); };
+    const double extinction = at(m_preClassified->extinction);
+    if (!(extinction > 0.0)) return {};
+    return {glm::dvec3(at(m_preClassified->red), at(m_preClassified->green), at(m_preClassified->blue)) /
+                extinction,
+            extinction};
 }
 
 double RayIntegrator::valueAt(const Ray& ray, glm::ivec3 cell, double t) const {
@@ -142,6 +182,8 @@ template <class Visit>
 void RayIntegrator::walkPieces(const Ray& ray, const Interval& range, double stepMm,
                                const Visit& visit) const {
     walkCells(m_field, ray.index, range, stepMm, [&](const Segment& segment) {
+        // Interpolated colours are smooth within a cell.
+        if (m_preClassified) return visit(Piece{segment.cell, 0, segment.from, segment.to});
         return splitAtPoints(ray, segment, valueAt(ray, segment.cell, segment.from),
                              valueAt(ray, segment.cell, segment.to), visit);
     });
@@ -149,12 +191,12 @@ void RayIntegrator::walkPieces(const Ray& ray, const Interval& range, double ste
 
 void RayIntegrator::addPiece(const Ray& ray, const Piece& piece, int depth, RayIntegral& sum) const {
     const double length = piece.to - piece.from;
-    std::array<double, 3> values{};
+    std::array<LocalOptics, 3> local{};
     std::array<double, 3> extinction{};
     double total = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-        values[i] = valueAt(ray, piece.cell, piece.from + kNodes[i] * length);
-        extinction[i] = m_optics.extinctionPerMm(piece.optics, values[i]);
+        local[i] = opticsAt(ray, piece, piece.from + kNodes[i] * length);
+        extinction[i] = local[i].extinction;
         total += kWeights[i] * extinction[i] * length;
     }
     if (total <= 0.0 || sum.opticalDepth > kNothingSeen) {
@@ -175,8 +217,7 @@ void RayIntegrator::addPiece(const Ray& ray, const Piece& piece, int depth, RayI
         double depthToNode = 0.0;
         for (std::size_t j = 0; j < 3; ++j) depthToNode += kUpToNode[i][j] * extinction[j] * length;
         const double weight = kWeights[i] * extinction[i] * std::exp(-depthToNode);
-        colors[i] =
-            shaded(ray, piece.cell, piece.from + kNodes[i] * length, m_optics.color(piece.optics, values[i]));
+        colors[i] = shaded(ray, piece.cell, piece.from + kNodes[i] * length, local[i].color);
         weighted += weight * colors[i];
         weights += weight;
     }
@@ -184,7 +225,7 @@ void RayIntegrator::addPiece(const Ray& ray, const Piece& piece, int depth, RayI
     // to 1.
     if (m_lit && depth < kMaxHalvings) {
         const auto shadeAt = [&](double t) {
-            return shaded(ray, piece.cell, t, m_optics.color(piece.optics, valueAt(ray, piece.cell, t)));
+            return shaded(ray, piece.cell, t, opticsAt(ray, piece, t).color);
         };
         const double shown = total * std::exp(-sum.opticalDepth);
         if (bend(colors, shadeAt(piece.from), shadeAt(piece.to)) * shown > kShadeError) return halve();
@@ -211,10 +252,9 @@ RayIntegral RayIntegrator::glow(const Ray& ray, double stepMm) const {
     walkPieces(ray, *ray.inside, stepMm, [&](const Piece& piece) {
         const double length = piece.to - piece.from;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double t = piece.from + kNodes[i] * length;
-            const double value = valueAt(ray, piece.cell, t);
-            const double depth = kWeights[i] * length * m_optics.extinctionPerMm(piece.optics, value);
-            sum.color += depth * m_optics.color(piece.optics, value);
+            const LocalOptics local = opticsAt(ray, piece, piece.from + kNodes[i] * length);
+            const double depth = kWeights[i] * length * local.extinction;
+            sum.color += depth * local.color;
             sum.opticalDepth += depth;
         }
         return true;
@@ -286,6 +326,47 @@ std::optional<glm::dvec3> RayIntegrator::isosurface(const Ray& ray, double stepM
     return hit;
 }
 
+glm::dvec4 RayIntegrator::isosurfaces(const Ray& ray, double stepMm) const {
+    glm::dvec3 color(0.0);
+    double transmittance = 1.0;
+    if (!ray.inside) return glm::dvec4(0.0);
+    const auto levelOf = [&](double value) {
+        return std::count_if(m_surfaces.begin(), m_surfaces.end(),
+                             [&](const SurfaceLayer& surface) { return value >= surface.value; });
+    };
+    const auto valueOf = [&](const Segment& part, double t) { return valueAt(ray, part.cell, t); };
+    auto level = levelOf(valueAt(ray, m_field.cellOf(ray.index.at(ray.inside->from)), ray.inside->from));
+    const auto visit = [&](const Segment& part) {
+        const auto target = levelOf(valueOf(part, part.to));
+        double from = part.from;
+        while (level != target) {
+            const bool rising = level < target;
+            const auto& surface = m_surfaces[static_cast<std::size_t>(rising ? level : level - 1)];
+            // A value on the isovalue has reached it, from either side.
+            const auto side = [&](double s) { return valueOf(part, s) >= surface.value ? 1.0 : -1.0; };
+            // Where two surfaces are one, or the value jumps at the part's beginning, nothing is left to
+            // search.
+            const double t = side(from) == side(part.to) ? from : rootBetween(from, part.to, side);
+            color += transmittance * surface.opacity * shaded(ray, part.cell, t, surface.color);
+            transmittance *= 1.0 - surface.opacity;
+            level += rising ? 1 : -1;
+            from = t;
+        }
+        return transmittance > 0.0;
+    };
+    walkCells(m_field, ray.index, *ray.inside, stepMm, [&](const Segment& segment) {
+        constexpr int kParts = 4;
+        const double length = (segment.to - segment.from) / kParts;
+        for (int i = 0; i < kParts; ++i) {
+            const double from = segment.from + i * length;
+            const double to = i + 1 == kParts ? segment.to : from + length;
+            if (!visit(Segment{segment.cell, from, to})) return false;
+        }
+        return true;
+    });
+    return {color, 1.0 - transmittance};
+}
+
 glm::dvec4 RayIntegrator::blended(const glm::dvec3& color, double transmittance, double alpha) const {
     if (!m_scene.picture.transparent)
         return {displayed(color + transmittance * m_background, m_scene.space), alpha};
@@ -330,6 +411,10 @@ glm::dvec4 RayIntegrator::pixel(double u, double v, double stepMm) const {
         case Mode::FirstHit:
             return opaque(firstHit(ray, stepMm));
         case Mode::Isosurface:
+            if (!m_surfaces.empty()) {
+                const glm::dvec4 seen = isosurfaces(ray, stepMm);
+                return blended(glm::dvec3(seen), 1.0 - seen.a, seen.a);
+            }
             return opaque(isosurface(ray, stepMm));
         case Mode::Slice:
             break;

@@ -57,6 +57,18 @@ private:
         double to = 0.0;
     };
 
+    /// Colour and extinction per mm at a point.
+    struct LocalOptics {
+        glm::dvec3 color{0.0};
+        double extinction = 0.0;
+    };
+    /// Fields of extinction times colour, and of extinction: the transfer function applied to voxels.
+    struct PreClassified {
+        Field red, green, blue, extinction;
+    };
+
+    [[nodiscard]] PreClassified preClassified() const;
+    [[nodiscard]] LocalOptics opticsAt(const Ray& ray, const Piece& piece, double t) const;
     [[nodiscard]] double valueAt(const Ray& ray, glm::ivec3 cell, double t) const;
     [[nodiscard]] glm::dvec3 shaded(const Ray& ray, glm::ivec3 cell, double t, glm::dvec3 color) const;
     template <class Visit>
@@ -71,6 +83,8 @@ private:
     [[nodiscard]] double average(const Ray& ray, double stepMm) const;
     [[nodiscard]] std::optional<glm::dvec3> firstHit(const Ray& ray, double stepMm) const;
     [[nodiscard]] std::optional<glm::dvec3> isosurface(const Ray& ray, double stepMm) const;
+    /// Associated colour and opacity of all isosurfaces of the volume.
+    [[nodiscard]] glm::dvec4 isosurfaces(const Ray& ray, double stepMm) const;
     [[nodiscard]] glm::dvec4 windowed(const std::optional<double>& value) const;
     [[nodiscard]] glm::dvec4 opaque(const std::optional<glm::dvec3>& color) const;
     [[nodiscard]] glm::dvec4 blended(const glm::dvec3& color, double transmittance, double alpha) const;
@@ -78,6 +92,8 @@ private:
     Scene m_scene;
     Field m_field;
     Optics m_optics;
+    std::optional<PreClassified> m_preClassified;
+    std::vector<SurfaceLayer> m_surfaces;  ///< Ascending; colours in the compositing space.
     RayFrame m_frame;
     double m_inset;
     glm::dvec3 m_centreMm;

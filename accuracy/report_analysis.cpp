@@ -104,6 +104,7 @@ std::optional<double> theoreticalOrder(Integrator integrator) {
         case Integrator::GaussLegendre:
             return 4.0;
         case Integrator::Adaptive:
+        case Integrator::Importance:
             return std::nullopt;
         default:
             return 2.0;

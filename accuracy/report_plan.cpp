@@ -42,6 +42,7 @@ public:
     explicit SettingList(const Scene& scene) : m_scene(scene) {}
 
     void add(const ReportSetting& setting) {
+        if (setting.integrator == Integrator::Importance && !boundsBends(setting.filter)) return;
         const Scene drawn = sceneWith(m_scene, setting, m_scene.picture.size);
         const Known known{renderer::featuresOf(drawn), m_scene.mode == Mode::Slice ? 0.0 : setting.stepVoxels,
                           setting.tolerance, setting.automatic};
@@ -68,8 +69,9 @@ private:
 };
 
 void addSteps(SettingList& list, ReportSetting setting, const ReportScope& scope) {
-    if (setting.integrator == Integrator::Adaptive || setting.automatic) {
-        setting.stepVoxels = 1.0;
+    const bool importance = setting.integrator == Integrator::Importance;
+    if (setting.integrator == Integrator::Adaptive || importance || setting.automatic) {
+        setting.stepVoxels = importance ? 0.25 : 1.0;
         for (const double tolerance : scope.tolerances) {
             setting.tolerance = tolerance;
             list.add(setting);

@@ -138,12 +138,13 @@ Result<const GlProgram*> Renderer::State::program(const Plan& plan) {
 FrameTables Renderer::State::tablesFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts,
                                        const RenderOptions& options) {
     FrameTables tables;
-    if (!usesTransferFunction(scene.mode)) return tables;
+    if (!usesTransferFunction(scene.mode) || plan.features.surfaces > 0) return tables;
     const auto& function = *scene.volumes.front().transferFunction;
     const auto space = plan.features.space;
     switch (plan.features.integrator) {
         case Integrator::Preintegrated2D:
-        case Integrator::Preintegrated3D: {
+        case Integrator::Preintegrated3D:
+        case Integrator::Importance: {
             auto& table = store.preintegration(function, space, layoutPreintegration(scene, plan, facts),
                                                !options.allowPreview);
             preview = !completePreintegration(table, !options.allowPreview);
@@ -183,6 +184,12 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const V
     const auto& item = scene.volumes.front();
     auto texture = store.volume(volume, item.component, options.progress);
     if (!texture) return tl::unexpected(texture.error());
+    const GlTexture* importance = nullptr;
+    if (plan.features.integrator == Integrator::Importance) {
+        auto made = store.importance(volume, item.component, options.progress);
+        if (!made) return tl::unexpected(made.error());
+        importance = *made;
+    }
     auto leaps = leapsFor(scene, plan, volume, **texture, options.progress);
     if (!leaps) return tl::unexpected(leaps.error());
     auto program_ = program(plan);
@@ -202,6 +209,10 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const V
     inputs.blueNoise = plan.features.jitter ? store.blueNoise().id() : 0;
     inputs.filterWeights = item.filter == Filter::TricubicBSplineLut ? store.filterWeights().id() : 0;
     inputs.leapField = plan.features.skipping == Skipping::Leaps ? store.leapField(**leaps).id() : 0;
+    inputs.importance = importance != nullptr ? importance->id() : 0;
+    if (plan.features.surfaces > 0)
+        inputs.surfacesBlock =
+            store.surfaces(surfaceBlock(item.isosurfaces, plan.features.space, **texture)).id();
     inputs.lightsBlock = plan.features.lit ? store.lights(lightBlock(scene, volume->grid())).id() : 0;
     inputs.interpolates = item.filter != Filter::Nearest;
     inputs.target = *target;

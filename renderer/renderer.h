@@ -31,6 +31,7 @@ struct WorkCounts {
     int volumeUploads = 0;
     int transferTables = 0;  ///< Of the function or its running integrals.
     int preintegrationTables = 0;
+    int importanceVolumes = 0;
     int programsCompiled = 0;  ///< From text.
     int programsFromDisk = 0;  ///< Driver binaries.
     int frames = 0;

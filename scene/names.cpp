@@ -29,6 +29,13 @@ std::span<const EnumName<AnatomicalView>> enumNames<AnatomicalView>() {
 }
 
 template <>
+std::span<const EnumName<Classification>> enumNames<Classification>() {
+    using enum Classification;
+    static constexpr std::array<EnumName<Classification>, 2> kNames{{{Post, "post"}, {Pre, "pre"}}};
+    return kNames;
+}
+
+template <>
 std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>() {
     using enum CompositingSpace;
     static constexpr std::array<EnumName<CompositingSpace>, 2> kNames{
@@ -61,15 +68,16 @@ std::span<const EnumName<Filter>> enumNames<Filter>() {
 template <>
 std::span<const EnumName<Integrator>> enumNames<Integrator>() {
     using enum Integrator;
-    static constexpr std::array<EnumName<Integrator>, 9> kNames{{{Riemann, "riemann"},
-                                                                 {Exponential, "exponential"},
-                                                                 {Trapezoid, "trapezoid"},
-                                                                 {Simpson, "simpson"},
-                                                                 {GaussLegendre, "gauss-legendre"},
-                                                                 {Preintegrated2D, "preintegrated-2d"},
-                                                                 {Preintegrated3D, "preintegrated-3d"},
-                                                                 {IntegralFunctions, "integral-functions"},
-                                                                 {Adaptive, "adaptive"}}};
+    static constexpr std::array<EnumName<Integrator>, 10> kNames{{{Riemann, "riemann"},
+                                                                  {Exponential, "exponential"},
+                                                                  {Trapezoid, "trapezoid"},
+                                                                  {Simpson, "simpson"},
+                                                                  {GaussLegendre, "gauss-legendre"},
+                                                                  {Preintegrated2D, "preintegrated-2d"},
+                                                                  {Preintegrated3D, "preintegrated-3d"},
+                                                                  {IntegralFunctions, "integral-functions"},
+                                                                  {Adaptive, "adaptive"},
+                                                                  {Importance, "importance"}}};
     return kNames;
 }
 

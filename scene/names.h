@@ -11,6 +11,7 @@ namespace pellucid {
 
 enum class Accumulation;
 enum class AnatomicalView;
+enum class Classification;
 enum class CompositingSpace;
 enum class ErrorNorm;
 enum class Filter;
@@ -51,6 +52,8 @@ template <>
 std::span<const EnumName<Accumulation>> enumNames<Accumulation>();
 template <>
 std::span<const EnumName<AnatomicalView>> enumNames<AnatomicalView>();
+template <>
+std::span<const EnumName<Classification>> enumNames<Classification>();
 template <>
 std::span<const EnumName<CompositingSpace>> enumNames<CompositingSpace>();
 template <>

@@ -48,6 +48,10 @@ Filter fieldOf(Filter filter) {
     }
 }
 
+bool boundsBends(Filter filter) {
+    return fieldOf(filter) == Filter::Trilinear || fieldOf(filter) == Filter::TricubicBSpline;
+}
+
 bool usesTransferFunction(Mode mode) {
     return mode == Mode::Composite || mode == Mode::XRay || mode == Mode::Emission ||
            mode == Mode::FirstHit || mode == Mode::Isosurface;

@@ -30,6 +30,10 @@ enum class Filter {
     TricubicBSplineLut      ///< As TricubicBSpline, weights from a table; for comparison.
 };
 
+/// Whether the transfer function is applied to reconstructed values or to voxels, whose associated colours
+/// are interpolated then. The latter cannot show what the function does between two voxels; for comparison.
+enum class Classification { Post, Pre };
+
 /// How a ray becomes a pixel.
 enum class Mode {
     Composite,   ///< Emission-absorption, front-to-back over (Max 1995).
@@ -39,7 +43,7 @@ enum class Mode {
     XRay,        ///< Absorption only: see XRayDisplay.
     Emission,    ///< Emission only: background + integral of extinction * colour.
     FirstHit,    ///< Colour of the first point whose extinction reaches hitOpacity, opaque.
-    Isosurface,  ///< Opaque surface at the isovalue, refined root.
+    Isosurface,  ///< Opaque surface at the isovalue, refined root; or the volume's isosurfaces.
     Slice  ///< The plane through the camera's target, perpendicular to the view, shown through the window.
 };
 
@@ -61,7 +65,8 @@ enum class Integrator {
     Preintegrated2D,    ///< Table over both end values for one segment length.
     Preintegrated3D,    ///< Table over both end values and the length.
     IntegralFunctions,  ///< From running integrals of the transfer function, no table over pairs.
-    Adaptive            ///< IntegralFunctions with steps chosen to meet toleranceGreyLevels.
+    Adaptive,           ///< IntegralFunctions with steps chosen to meet toleranceGreyLevels.
+    Importance  ///< Preintegrated3D with steps as long as the data around allow (toleranceGreyLevels).
 };
 
 /// What must stay below a tolerance: the root mean square over pixels and RGB, or the largest error anywhere.
@@ -71,15 +76,28 @@ enum class ErrorNorm { Rmse, Max };
 /// media stall.
 enum class Accumulation { Float32, Half, EightBit };
 
+/// One of several surfaces of equal value.
+struct SurfaceLayer {
+    double value = 0.0;     ///< Physical value.
+    glm::dvec3 color{1.0};  ///< Display-encoded.
+    double opacity = 1.0;   ///< Of the surface, in (0, 1].
+    bool operator==(const SurfaceLayer&) const = default;
+};
+inline constexpr std::size_t kMaxSurfaces = 8;
+
 /// One drawn volume. Unset members follow from the data (completed()).
 struct VolumeItem {
     std::string name;
     std::string source;  ///< Path, relative to the scene file; may be empty for volumes given in memory.
     int component = 0;
     Filter filter = Filter::Trilinear;
+    Classification classification = Classification::Post;  ///< For Composite, XRay and Emission.
     std::optional<TransferFunction1D> transferFunction;
     std::optional<Window> window;    ///< Physical level and width for Mip, MinIp, Average and Slice.
     std::optional<double> isovalue;  ///< Physical value, for Isosurface.
+    /// For Isosurface, in place of the isovalue: each is seen through those in front of it. At most
+    /// kMaxSurfaces.
+    std::vector<SurfaceLayer> isosurfaces;
     bool operator==(const VolumeItem&) const = default;
 };
 
@@ -93,7 +111,8 @@ struct Quality {
     Accumulation accumulation = Accumulation::Float32;
     bool jitter = false;  ///< Ray starts are shifted within a step by blue noise, the same in every picture.
     /// The error asked for, in grey levels (1/255 of what is shown), > 0; 1 when unset. The adaptive
-    /// integrator keeps every ray below it, automatic the picture.
+    /// integrator keeps every ray below it, automatic the picture; the importance integrator lets values
+    /// deviate by half as many 255ths of the data's range.
     std::optional<double> toleranceGreyLevels;
     ErrorNorm toleranceNorm = ErrorNorm::Rmse;  ///< What automatic measures.
     /// Step, integrator and early termination are chosen when drawn: the cheapest that keep the picture's
@@ -152,6 +171,8 @@ struct Scene {
 [[nodiscard]] bool usesTransferFunction(Mode mode);
 /// The filter whose field this one draws in another way; most have a field of their own.
 [[nodiscard]] Filter fieldOf(Filter filter);
+/// Filters whose second derivatives stay within the second differences of the voxels.
+[[nodiscard]] bool boundsBends(Filter filter);
 /// Modes that are lit.
 [[nodiscard]] bool usesLights(Mode mode);
 /// Modes shown through the window.

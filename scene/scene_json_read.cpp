@@ -54,15 +54,26 @@ Window readWindow(const json& value, const std::string& pointer, JsonComplaints&
     return window;
 }
 
+SurfaceLayer readSurface(const json& value, const std::string& pointer, JsonComplaints& complaints) {
+    const JsonObject object(value, pointer, complaints, {"value", "color", "opacity"});
+    SurfaceLayer surface;
+    object.require("value", "a finite number");
+    object.read("value", surface.value);
+    object.readColor("color", surface.color);
+    object.read("opacity", surface.opacity);
+    return surface;
+}
+
 VolumeItem readItem(const json& value, const std::string& pointer, JsonComplaints& complaints) {
-    const JsonObject object(
-        value, pointer, complaints,
-        {"name", "source", "component", "filter", "transferFunction", "preset", "window", "isovalue"});
+    const JsonObject object(value, pointer, complaints,
+                            {"name", "source", "component", "filter", "classification", "transferFunction",
+                             "preset", "window", "isovalue", "isosurfaces"});
     VolumeItem item;
     object.read("name", item.name);
     object.read("source", item.source);
     object.read("component", item.component);
     object.readName("filter", item.filter);
+    object.readName("classification", item.classification);
     object.exclude("transferFunction", "preset");
     if (const json* function = object.find("transferFunction"))
         item.transferFunction =
@@ -71,6 +82,9 @@ VolumeItem readItem(const json& value, const std::string& pointer, JsonComplaint
     if (const json* window = object.find("window"))
         item.window = readWindow(*window, object.pointerTo("window"), complaints);
     object.read("isovalue", item.isovalue);
+    object.forEach("isosurfaces", [&](const json& surface, const std::string& at) {
+        item.isosurfaces.push_back(readSurface(surface, at, complaints));
+    });
     return item;
 }
 

@@ -100,6 +100,15 @@ Json write(const TransferFunction1D& function, bool full) {
     return writer.take();
 }
 
+Json write(const SurfaceLayer& surface, bool full) {
+    ObjectWriter writer(full);
+    const SurfaceLayer ordinary;
+    writer.put("value", surface.value);
+    writer.color("color", surface.color, ordinary.color);
+    writer.number("opacity", surface.opacity, ordinary.opacity);
+    return writer.take();
+}
+
 Json write(const VolumeItem& item, bool full) {
     ObjectWriter writer(full);
     const VolumeItem ordinary;
@@ -107,9 +116,15 @@ Json write(const VolumeItem& item, bool full) {
     writer.plain("source", item.source, ordinary.source);
     writer.plain("component", item.component, ordinary.component);
     writer.named("filter", item.filter, ordinary.filter);
+    writer.named("classification", item.classification, ordinary.classification);
     if (item.transferFunction) writer.put("transferFunction", write(*item.transferFunction, full));
     if (item.window) writer.put("window", Json{{"level", item.window->level}, {"width", item.window->width}});
     writer.number("isovalue", item.isovalue);
+    if (full || !item.isosurfaces.empty()) {
+        Json surfaces = Json::array();
+        for (const SurfaceLayer& surface : item.isosurfaces) surfaces.push_back(write(surface, full));
+        writer.put("isosurfaces", std::move(surfaces));
+    }
     return writer.take();
 }
 

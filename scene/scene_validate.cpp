@@ -52,6 +52,15 @@ private:
     Result<void> m_result;
 };
 
+void checkSurface(const SurfaceLayer& surface, const std::string& at, Checker& check) {
+    check.finite(surface.value, at + "/value");
+    for (int c = 0; c < 3; ++c)
+        check.require(surface.color[c] >= 0.0 && surface.color[c] <= 1.0, fmt::format("{}/color/{}", at, c),
+                      surface.color[c], "a number in [0, 1]");
+    check.require(surface.opacity > 0.0 && surface.opacity <= 1.0, at + "/opacity", surface.opacity,
+                  "a number in (0, 1]");
+}
+
 void checkItem(const VolumeItem& item, const std::string& at, Checker& check) {
     check.text(item.name, at + "/name");
     check.text(item.source, at + "/source");
@@ -67,6 +76,10 @@ void checkItem(const VolumeItem& item, const std::string& at, Checker& check) {
         check.positive(item.window->width, at + "/window/width");
     }
     if (item.isovalue) check.finite(*item.isovalue, at + "/isovalue");
+    check.require(item.isosurfaces.size() <= kMaxSurfaces, at + "/isosurfaces",
+                  static_cast<double>(item.isosurfaces.size()), "at most 8 surfaces");
+    for (std::size_t i = 0; i < item.isosurfaces.size(); ++i)
+        checkSurface(item.isosurfaces[i], fmt::format("{}/isosurfaces/{}", at, i), check);
 }
 
 void checkLight(const Light& light, const std::string& at, Checker& check) {

@@ -45,9 +45,11 @@ QString textOf(Integrator integrator) {
         case Integrator::IntegralFunctions:
             return QualityPanel::tr("Running integrals");
         case Integrator::Adaptive:
+            return QualityPanel::tr("Adaptive steps");
+        case Integrator::Importance:
             break;
     }
-    return QualityPanel::tr("Adaptive steps");
+    return QualityPanel::tr("Steps by importance");
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
     glBindSampler(0, inputs.interpolates ? m_linear.id() : m_nearest.id());
     const GLuint tables[] = {inputs.transferTable, inputs.segmentTable, inputs.blueNoise,
                              inputs.filterWeights};
-    for (GLuint i = 0; i < 4; ++i) {
+    for (GLuint i = 0; i < std::size(tables); ++i) {
         if (tables[i] == 0) continue;
         glBindTextureUnit(1 + i, tables[i]);
         glBindSampler(1 + i, m_linear.id());
@@ -83,7 +83,12 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
         glBindTextureUnit(5, inputs.leapField);
         glBindSampler(5, m_nearest.id());
     }
+    if (inputs.importance != 0) {
+        glBindTextureUnit(6, inputs.importance);
+        glBindSampler(6, m_nearest.id());
+    }
     if (inputs.lightsBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 0, inputs.lightsBlock);
+    if (inputs.surfacesBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 1, inputs.surfacesBlock);
     glBindFramebuffer(GL_FRAMEBUFFER, inputs.target->framebuffer.id());
     glViewport(0, 0, inputs.target->size.x, inputs.target->size.y);
     glDisable(GL_BLEND);

@@ -21,7 +21,9 @@ struct RaycastInputs {
     GLuint blueNoise = 0;      ///< 0: none.
     GLuint filterWeights = 0;  ///< 0: none.
     GLuint leapField = 0;      ///< 0: none.
+    GLuint importance = 0;     ///< 0: none.
     GLuint lightsBlock = 0;    ///< 0: none.
+    GLuint surfacesBlock = 0;  ///< 0: none.
     bool interpolates = true;  ///< The volume's sampler is linear.
     const ResourceStore::Target* target = nullptr;
 };

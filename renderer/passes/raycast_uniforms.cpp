@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "renderer/plan/importance.h"
 #include "scene/image.h"
 
 namespace pellucid::renderer {
@@ -82,7 +83,7 @@ void addTables(Uniforms& uniforms, const Plan& plan, const VolumeTexture& volume
                               coordinateFromTexel(volume, layout.lo, layout.hi, layout.size));
         uniforms.emplace_back(
             "preintegrationFromLength",
-            glm::vec2((layout.layers - 1.0) / layout.layers / plan.stepMm, 0.5 / layout.layers));
+            glm::vec2((layout.layers - 1.0) / layout.layers / plan.longestStepMm, 0.5 / layout.layers));
     }
     if (tables.integrals != nullptr) {
         const auto& table = *tables.integrals;
@@ -120,6 +121,16 @@ void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan, doubl
                           static_cast<int>(std::min(4.0 * longestRay / shortest + 64.0, maxLoopTurns)));
 }
 
+void addImportance(Uniforms& uniforms, const Scene& scene, const Plan& plan, const Grid& grid) {
+    if (plan.features.integrator != Integrator::Importance) return;
+    uniforms.emplace_back("longestStepMm", static_cast<float>(plan.longestStepMm));
+    uniforms.emplace_back("importanceFromTexture",
+                          glm::vec3(glm::dvec3(grid.size) / double{kImportanceBlock}));
+    uniforms.emplace_back("kinkWeight", static_cast<float>(kinkWeight(plan.features.filter)));
+    uniforms.emplace_back("layerMm", static_cast<float>(layerMm(grid)));
+    uniforms.emplace_back("eightTolerances", static_cast<float>(8.0 * importanceTolerance(scene.quality)));
+}
+
 /// The most light a point can send relative to its colour: what is hidden behind transmittance T changes the
 /// picture by at most T times this.
 double brightestReflection(const Scene& scene) {
@@ -141,6 +152,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     addRay(uniforms, rayFrame(scene.camera, grid, scene.picture.size), grid);
     addGeometry(uniforms, grid, volume.texelExtent);
     addAdaptive(uniforms, scene, plan, maxLoopTurns);
+    addImportance(uniforms, scene, plan, grid);
     glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
     const bool linear = plan.features.space == CompositingSpace::Linear;
     if (linear)
@@ -180,7 +192,26 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     uniforms.emplace_back("blueNoise", 3);
     uniforms.emplace_back("filterWeights", 4);
     uniforms.emplace_back("leapField", 5);
+    uniforms.emplace_back("importanceVolume", 6);
     return uniforms;
+}
+
+std::vector<glm::vec4> surfaceBlock(std::vector<SurfaceLayer> surfaces, CompositingSpace space,
+                                    const VolumeTexture& volume) {
+    const auto texel = [&](const SurfaceLayer& surface) {
+        return static_cast<float>(volume.texelFromPhysical(surface.value));
+    };
+    std::stable_sort(surfaces.begin(), surfaces.end(),
+                     [&](const SurfaceLayer& a, const SurfaceLayer& b) { return texel(a) < texel(b); });
+    std::vector<glm::vec4> block;
+    for (const SurfaceLayer& surface : surfaces) {
+        glm::dvec3 color = surface.color;
+        if (space == CompositingSpace::Linear)
+            for (int channel = 0; channel < 3; ++channel) color[channel] = linearFromDisplay(color[channel]);
+        block.emplace_back(glm::vec3(color), static_cast<float>(surface.opacity));
+        block.emplace_back(texel(surface), 0.0f, 0.0f, 0.0f);
+    }
+    return block;
 }
 
 std::vector<glm::vec4> lightBlock(const Scene& scene, const Grid& grid) {

@@ -39,6 +39,10 @@ struct FrameTables {
                                        const VolumeTexture& volume, const FrameTables& tables,
                                        double maxLoopTurns);
 
+/// The std140 block Surfaces: for each surface, ascending in value, colour in the compositing space and
+/// opacity, and the normalised value.
+[[nodiscard]] std::vector<glm::vec4> surfaceBlock(std::vector<SurfaceLayer> surfaces, CompositingSpace space,
+                                                  const VolumeTexture& volume);
 /// The std140 block of shade/blinn_phong.glsl: colour * intensity, then direction to the light (w 0) or
 /// position (w 1), render coordinates.
 [[nodiscard]] std::vector<glm::vec4> lightBlock(const Scene& scene, const Grid& grid);

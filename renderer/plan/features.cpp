@@ -17,6 +17,13 @@ Features featuresOf(const Scene& scene) {
     features.lights = features.lit ? static_cast<int>(scene.lights->size()) : 0;
     features.earlyTermination = scene.mode == Mode::Composite && scene.quality.earlyTermination > 0.0;
     if (scene.mode == Mode::XRay) features.xray = scene.xray;
+    const bool sumsSamples =
+        scene.mode == Mode::Composite || scene.mode == Mode::XRay || scene.mode == Mode::Emission;
+    // One voxel is the same before and after.
+    if (sumsSamples && !scene.volumes.empty() && features.filter != Filter::Nearest)
+        features.classification = scene.volumes.front().classification;
+    if (scene.mode == Mode::Isosurface && !scene.volumes.empty())
+        features.surfaces = static_cast<int>(scene.volumes.front().isosurfaces.size());
     if (scene.mode == Mode::Composite || scene.mode == Mode::XRay)
         features.integrator = scene.quality.integrator;
     // The two one-sample rules differ in emission only.

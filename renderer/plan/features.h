@@ -24,9 +24,11 @@ struct Features {
     bool lit = false;
     int lights = 0;  ///< Count of lights; 0 unless lit.
     bool earlyTermination = false;
-    Integrator integrator = Integrator::Exponential;    ///< Composite and XRay only.
-    Accumulation accumulation = Accumulation::Float32;  ///< Composite only.
-    bool jitter = false;                                ///< Where rays have steps of one length.
+    Integrator integrator = Integrator::Exponential;       ///< Composite and XRay only.
+    Accumulation accumulation = Accumulation::Float32;     ///< Composite only.
+    bool jitter = false;                                   ///< Where rays have steps of one length.
+    Classification classification = Classification::Post;  ///< Composite, XRay and Emission only.
+    int surfaces = 0;  ///< Count of the volume's isosurfaces; Isosurface only.
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
     Skipping skipping = Skipping::None;  ///< Set by makePlan: it depends on the data too.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/plan/importance.h"
 #include "renderer/plan/preintegration.h"
 #include "renderer/plan/skipping.h"
 #include "renderer/plan/stages.h"
@@ -20,6 +21,7 @@ namespace {
 constexpr double kMaxSamplesPerRay = 16777216.0;
 // std140: two vec4.
 constexpr std::uint64_t kBytesPerLight = 32;
+constexpr std::uint64_t kBytesPerSurface = 32;
 constexpr int kMaxLights = 256;  // 16 KB guaranteed for a uniform block leaves room for 512
 
 Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
@@ -46,6 +48,38 @@ Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
 bool has(const Plan& plan, std::string_view stage, std::string_view variant) {
     return std::any_of(plan.stages.begin(), plan.stages.end(),
                        [&](const StageRow& row) { return row.stage == stage && row.variant == variant; });
+}
+
+/// Combinations that no picture is defined for.
+Result<void> checkChoices(const Features& features, const Quality& quality) {
+    const bool importance = features.integrator == Integrator::Importance;
+    if (importance && !boundsBends(features.filter))
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format("/quality/integrator: importance bounds how far a value leaves a line by the second "
+                        "differences of the voxels, which the filter {} does not keep to; take "
+                        "trilinear or tricubic-bspline",
+                        name(features.filter)));
+    if (features.classification == Classification::Post) return {};
+    if (quality.automatic)
+        return fail(
+            ErrorCode::Unsupported,
+            "/quality: settings are chosen for post-classified pictures only; state stepVoxels beside "
+            "the classification pre");
+    if (integratesSegments(features.integrator))
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format(
+                "/volumes/0/classification: pre-classified colours are not a function of one value, as the "
+                "integrator {} needs; take exponential or riemann",
+                name(features.integrator)));
+    if (fieldOf(features.filter) != Filter::Trilinear)
+        return fail(
+            ErrorCode::Unsupported,
+            fmt::format("/volumes/0/classification: pre-classified colours are interpolated linearly; take "
+                        "the filter trilinear or nearest in place of {}",
+                        name(features.filter)));
+    return {};
 }
 
 Result<void> checkSamples(const Plan& plan, const DeviceLimits& limits) {
@@ -77,7 +111,7 @@ TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& f
 
 void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
     plan.table = layoutFor(scene, plan, facts);
-    if (!has(plan, "classify", "tf1d")) {
+    if (!has(plan, "classify", "tf1d") && !has(plan, "classify", "pre_classified")) {
         plan.table.size = 0;
         plan.table.worstError = 0.0;
         return;
@@ -90,7 +124,7 @@ void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) 
 
 void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
     const auto integrator = plan.features.integrator;
-    if (integrator == Integrator::Preintegrated2D || integrator == Integrator::Preintegrated3D) {
+    if (has(plan, "integrate", "preintegrated_2d") || has(plan, "integrate", "preintegrated_3d")) {
         const auto layout = layoutPreintegration(scene, plan, facts);
         const auto entries =
             static_cast<std::uint64_t>(layout.size) * static_cast<std::uint64_t>(layout.size * layout.layers);
@@ -105,6 +139,12 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
                                   static_cast<std::uint64_t>(size) * 16,
                                   fmt::format("running integrals at {} values", size)});
     }
+    if (integrator == Integrator::Importance)
+        plan.resources.push_back(
+            {"importance volume", "texture 3D RG32F", importanceBytes(facts.grid),
+             fmt::format("how much the data bend in blocks of {0} x {0} x {0} voxels; steps "
+                         "of {1:g} to {2:g} mm",
+                         kImportanceBlock, plan.stepMm, plan.longestStepMm)});
 }
 
 std::string automaticText(const Quality& quality) {
@@ -132,6 +172,8 @@ double turnsPerSample(const Plan& plan) {
                                   : 0.0;
     // A lit sample: two turns to find it, one to light it.
     if (plan.features.lit && has(plan, "compose", "over")) return 3.0 + overLights;
+    // One to pass a segment, two for each surface crossed in it and what lights it.
+    if (plan.features.surfaces > 0) return 1.0 + plan.features.surfaces * (2.0 + overLights);
     if (has(plan, "traverse", "adaptive")) return 1.0 + 3.0 * overLights;
     if (has(plan, "traverse", "midpoints_by_four")) return 0.25;
     return 1.0 + overLights;
@@ -158,7 +200,11 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
         return fail(ErrorCode::TooLarge, fmt::format("the scene has {} lights; at most {} are allowed",
                                                      plan.features.lights, kMaxLights));
     if (scene.mode != Mode::Slice) plan.automatic = automaticText(scene.quality);
+    if (auto fine = checkChoices(plan.features, scene.quality); !fine) return tl::unexpected(fine.error());
     plan.stepMm = stepMm(scene.quality, facts.grid);
+    plan.longestStepMm = plan.stepMm;
+    if (plan.features.integrator == Integrator::Importance)
+        plan.longestStepMm = std::max(plan.stepMm, longestImportanceStepMm(facts.grid, plan.features.filter));
     plan.samplesPerRay =
         scene.mode == Mode::Slice ? 1.0 : std::ceil(2.0 * radiusMm(facts.grid) / plan.stepMm);
     auto choice = chooseStages(plan.features);
@@ -187,6 +233,10 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
         plan.resources.push_back(
             {"lights", "uniform block", kBytesPerLight * static_cast<std::uint64_t>(plan.features.lights),
              fmt::format("{} light{}", plan.features.lights, plan.features.lights == 1 ? "" : "s")});
+    if (plan.features.surfaces > 0)
+        plan.resources.push_back({"isosurfaces", "uniform block",
+                                  kBytesPerSurface * static_cast<std::uint64_t>(plan.features.surfaces),
+                                  fmt::format("{} surfaces, ascending", plan.features.surfaces)});
     for (const auto& pass : plan.passes) plan.totalBytes += pass.bytes;
     for (const auto& resource : plan.resources) plan.totalBytes += resource.bytes;
     planSkipping(plan, scene, facts, limits);

@@ -77,6 +77,7 @@ struct Plan {
     TableLayout table;
     std::string automatic;  ///< What is chosen only when drawn, a sentence; empty: nothing is.
     double stepMm = 0.0;
+    double longestStepMm = 0.0;          ///< stepMm, but where steps follow the data.
     double samplesPerRay = 0.0;          ///< Upper bound: volume diagonal / step.
     double earlyTerminationBound = 0.0;  ///< Error bound in display units; 0 when rays never stop early.
     std::uint64_t totalBytes = 0;        ///< GPU memory of passes and resources.

@@ -128,8 +128,9 @@ RunningIntegrals::Value RunningIntegrals::at(double value) const {
 
 PreintegrationLayout layoutPreintegration(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
     PreintegrationLayout layout{plan.table.lo, plan.table.hi, is8Bit(facts.type) ? 256 : 512, 1,
-                                plan.stepMm / *scene.unitLengthMm * scene.densityScale};
-    if (plan.features.integrator == Integrator::Preintegrated3D) {
+                                plan.longestStepMm / *scene.unitLengthMm * scene.densityScale};
+    if (plan.features.integrator == Integrator::Preintegrated3D ||
+        plan.features.integrator == Integrator::Importance) {
         layout.size = 256;
         layout.layers = kLayers;
     }

@@ -31,6 +31,8 @@ public:
         m_text.vertex = kVersionLine + shaderFile("engine/fullscreen.vert");
         m_out << kVersionLine;
         if (m_features.lit) m_out << fmt::format("const int lightCount = {};\n", m_features.lights);
+        if (m_features.surfaces > 0)
+            m_out << fmt::format("const int surfaceCount = {};\n", m_features.surfaces);
         append("engine/raycast.frag");
         m_text.fragment = m_out.str();
         for (const char* uniform : engineUniforms()) m_text.uniforms.emplace_back(uniform);

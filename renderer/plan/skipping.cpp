@@ -17,6 +17,10 @@ constexpr const char* kLeapField = "leap field";
 /// Why values alone cannot tell that a sample does not matter; null when they can.
 const char* whyNot(const Features& features) {
     if (features.integrator == Integrator::Adaptive) return "adaptive steps depend on all they pass";
+    if (features.integrator == Integrator::Importance) return "steps follow the data, empty or not";
+    if (features.surfaces > 0) return "a crossing may lie between any two samples";
+    if (features.classification == Classification::Pre)
+        return "pre-classified for comparison: every sample is taken";
     if (features.mode == Mode::Slice) return "a slice is one sample a ray";
     if (features.mode == Mode::Average) return "a mean counts every value";
     return nullptr;

@@ -34,6 +34,11 @@ std::span<const StageVariant> stageTable() {
         {"leap", "cubes", {"leapField", "blocksFromTexture"}, {}, {}},
         {"classify", "tf1d", {"transferTable", "tableFromValue", "extinctionPerMm"}, {}, {}},
         {"classify", "window", {"windowFromValue"}, {}, {}},
+        {"classify",
+         "pre_classified",
+         {"transferTable", "tableFromValue", "extinctionPerMm"},
+         {},
+         {"reconstruct"}},
         {"integrate", "exponential", {}, {}, {"classify"}},
         {"integrate", "riemann", {}, {}, {"classify"}},
         {"integrate", "trapezoid", {}, {}, {"classify"}},
@@ -72,6 +77,7 @@ std::span<const StageVariant> stageTable() {
         {"compose", "emission", {}, {}, {"classify"}},
         {"compose", "first_hit", {"hitExtinctionPerMm"}, {}, {"classify", "reconstruct"}},
         {"compose", "isosurface", {"isovalue"}, {}, {"classify", "reconstruct"}},
+        {"compose", "isosurfaces", {}, {"Surfaces"}, {"reconstruct"}},
         {"compose", "slice", {}, {}, {"classify"}},
         {"jitter", "blue_noise", {"blueNoise"}, {}, {}},
         {"traverse", "midpoints", {"stepMm"}, {}, {"reconstruct", "compose"}},
@@ -82,7 +88,14 @@ std::span<const StageVariant> stageTable() {
          {"stepMm", "shortestStepMm", "tolerance", "mostSegments"},
          {},
          {"reconstruct", "compose"}},
+        {"traverse",
+         "importance",
+         {"stepMm", "longestStepMm", "importanceVolume", "importanceFromTexture", "layerMm",
+          "eightTolerances", "kinkWeight"},
+         {},
+         {"reconstruct", "compose"}},
         {"traverse", "boundaries", {"stepMm"}, {}, {"reconstruct", "compose"}},
+        {"traverse", "crossings", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "plane", {"planeForward", "planeFromAnchorMm"}, {}, {"reconstruct", "compose"}},
         {"encode", "srgb", {"transparentPicture"}, {}, {}},
     };
@@ -153,6 +166,7 @@ StageRow integrateRow(Integrator integrator) {
         case Integrator::Preintegrated2D:
             return row("preintegrated_2d");
         case Integrator::Preintegrated3D:
+        case Integrator::Importance:
             return row("preintegrated_3d");
         case Integrator::IntegralFunctions:
         case Integrator::Adaptive:
@@ -195,7 +209,7 @@ StageRow composeRow(const Features& features) {
         case Mode::FirstHit:
             return row("first_hit");
         case Mode::Isosurface:
-            return row("isosurface");
+            return row(features.surfaces > 0 ? "isosurfaces" : "isosurface");
         case Mode::Slice:
             break;
     }
@@ -205,14 +219,19 @@ StageRow composeRow(const Features& features) {
 StageRow traverseRow(const Features& features) {
     const Mode mode = features.mode;
     if (mode == Mode::Slice) return {"traverse", "plane", "a slice is one sample a ray"};
+    if (features.surfaces > 0)
+        return {"traverse", "crossings", "every crossing of a surface is looked for between samples"};
     if (mode == Mode::FirstHit || mode == Mode::Isosurface)
         return {"traverse", "boundaries", "a surface is searched between samples"};
     if (features.integrator == Integrator::Adaptive)
         return {"traverse", "adaptive", "steps follow the error estimate of each segment"};
+    if (features.integrator == Integrator::Importance)
+        return {"traverse", "importance", "steps follow how much the data around bend"};
     if (integratesSegments(features.integrator))
         return {"traverse", "segments", "equal segments, integrated from both ends"};
     // Unrolling a wider filter's 8 to 216 fetches would only make the program longer to compile.
-    if (features.filter == Filter::Nearest || features.filter == Filter::Trilinear)
+    if (features.classification == Classification::Post &&
+        (features.filter == Filter::Nearest || features.filter == Filter::Trilinear))
         return {"traverse", "midpoints_by_four",
                 "equal segments; a value is one fetch, so four are taken a turn"};
     return {"traverse", "midpoints", "equal segments, each with its own length"};
@@ -221,7 +240,8 @@ StageRow traverseRow(const Features& features) {
 /// True when the integrate stage classifies single values too.
 bool needsClassify(const Features& features) {
     return features.integrator != Integrator::Preintegrated2D &&
-           features.integrator != Integrator::Preintegrated3D;
+           features.integrator != Integrator::Preintegrated3D &&
+           features.integrator != Integrator::Importance;
 }
 
 }  // namespace
@@ -239,6 +259,11 @@ StageChoice chooseStages(const Features& features) {
     if (!usesTransferFunction(features.mode)) {
         rows.push_back({"classify", "window", "the mode shows values through the window"});
         leftOut.push_back({"transfer table", "the mode shows values through the window"});
+    } else if (features.surfaces > 0) {
+        leftOut.push_back({"classify", "the surfaces have colours of their own"});
+    } else if (features.classification == Classification::Pre) {
+        rows.push_back(
+            {"classify", "pre_classified", "the transfer function is applied to voxels, for comparison"});
     } else if (needsClassify(features)) {
         rows.push_back({"classify", "tf1d", "colours and extinction come from the transfer function"});
     } else {

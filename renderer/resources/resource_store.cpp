@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/resources/resource_store.h"
 
+#include "renderer/plan/importance.h"
 #include "renderer/resources/blue_noise.h"
 #include "renderer/resources/filter_weights.h"
 
@@ -145,6 +146,22 @@ const GlTexture& ResourceStore::leapField(Leaps& leaps) {
     return leaps.field;
 }
 
+Result<const GlTexture*> ResourceStore::importance(const VolumePtr& volume, int component,
+                                                   const Progress& progress) {
+    m_importances.remove_if([](const ImportanceEntry& entry) { return entry.volume.expired(); });
+    for (const auto& entry : m_importances)
+        if (entry.component == component && entry.volume.lock() == volume) return &entry.texture;
+    auto grid = importanceOf(*volume, component, progress);
+    if (!grid) return tl::unexpected(grid.error());
+    ++counts.importanceVolumes;
+    GlTexture texture = createTexture(GL_TEXTURE_3D);
+    glTextureStorage3D(texture.id(), 1, GL_RG32F, grid->size.x, grid->size.y, grid->size.z);
+    glTextureSubImage3D(texture.id(), 0, 0, 0, 0, grid->size.x, grid->size.y, grid->size.z, GL_RG, GL_FLOAT,
+                        grid->bends.data());
+    m_importances.push_front({volume, component, std::move(texture)});
+    return &m_importances.front().texture;
+}
+
 const GlTexture& ResourceStore::blueNoise() {
     if (!m_blueNoise) m_blueNoise = createBlueNoise();
     return m_blueNoise;
@@ -155,14 +172,14 @@ const GlTexture& ResourceStore::filterWeights() {
     return m_filterWeights;
 }
 
-const GlBuffer& ResourceStore::lights(const std::vector<glm::vec4>& block) {
-    if (m_lightBlock != block || !m_lights) {
+const GlBuffer& ResourceStore::UniformBlock::holding(const std::vector<glm::vec4>& block) {
+    if (m_block != block || !m_buffer) {
         const auto bytes = static_cast<GLsizeiptr>(block.size() * sizeof(glm::vec4));
-        m_lights = createBuffer();
-        glNamedBufferStorage(m_lights.id(), bytes, block.data(), 0);
-        m_lightBlock = block;
+        m_buffer = createBuffer();
+        glNamedBufferStorage(m_buffer.id(), bytes, block.data(), 0);
+        m_block = block;
     }
-    return m_lights;
+    return m_buffer;
 }
 
 Result<const ResourceStore::Target*> ResourceStore::target(glm::ivec2 size) {

@@ -38,10 +38,19 @@ public:
                                        const VolumeTexture& texture, const std::vector<ValueRange>& shown,
                                        const Progress& progress);
     [[nodiscard]] const GlTexture& leapField(Leaps& leaps);
+    /// How much a volume bends, from its voxels alone; kept as long as the volume. Errors: Cancelled.
+    [[nodiscard]] Result<const GlTexture*> importance(const VolumePtr& volume, int component,
+                                                      const Progress& progress);
     [[nodiscard]] const GlTexture& blueNoise();
     [[nodiscard]] const GlTexture& filterWeights();
     /// A std140 block with the scene's lights; kept while the lights are the same.
-    [[nodiscard]] const GlBuffer& lights(const std::vector<glm::vec4>& block);
+    [[nodiscard]] const GlBuffer& lights(const std::vector<glm::vec4>& block) {
+        return m_lights.holding(block);
+    }
+    /// The same for its isosurfaces.
+    [[nodiscard]] const GlBuffer& surfaces(const std::vector<glm::vec4>& block) {
+        return m_surfaces.holding(block);
+    }
     /// The float target, kept while its size is the same.
     struct Target {
         GlTexture color;
@@ -58,6 +67,20 @@ private:
         std::weak_ptr<const Volume> volume;
         int component = 0;
         VolumeTexture texture;
+    };
+    struct ImportanceEntry {
+        std::weak_ptr<const Volume> volume;
+        int component = 0;
+        GlTexture texture;
+    };
+    /// A buffer, made anew when what it is to hold changes.
+    class UniformBlock {
+    public:
+        [[nodiscard]] const GlBuffer& holding(const std::vector<glm::vec4>& block);
+
+    private:
+        std::vector<glm::vec4> m_block;
+        GlBuffer m_buffer;
     };
     /// A table and what it was made from.
     template <class Table>
@@ -91,8 +114,9 @@ private:
     GlTexture m_filterWeights;
     std::list<FunctionTable<TransferTexture>> m_tables;  // most recently used first
     std::list<Target> m_targets;                         // most recently used first
-    std::vector<glm::vec4> m_lightBlock;
-    GlBuffer m_lights;
+    std::list<ImportanceEntry> m_importances;
+    UniformBlock m_lights;
+    UniformBlock m_surfaces;
 };
 
 }  // namespace pellucid::renderer

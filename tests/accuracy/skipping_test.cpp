@@ -129,7 +129,8 @@ TEST_F(SkippingTest, ChangesNoBitWithAnyIntegrator) {
             for (int half = 0; half < 2; ++half, ++turn) {
                 if (half == 1 && (mode == Mode::XRay || turn % 4 != 1)) continue;
                 ++wanted;
-                if (integrator.value == Integrator::Adaptive) --wanted;
+                if (integrator.value == Integrator::Adaptive || integrator.value == Integrator::Importance)
+                    --wanted;
                 Scene scene = ballsScene(volume->grid(), mode);
                 scene.quality.integrator = integrator.value;
                 if (half == 1) scene.volumes[0].filter = Filter::TricubicBSpline;

@@ -47,6 +47,15 @@ std::vector<Features> coveringSet() {
                 scene.quality.jitter = half == 0;
                 all.push_back(featuresOf(scene));
             }
+    for (const Mode mode : {Mode::Composite, Mode::XRay, Mode::Emission, Mode::Isosurface})
+        for (int half = 0; half < 2; ++half) {
+            Scene scene = test::rampScene(mode);
+            scene.lights->resize(half == 0 ? 0u : 1u);
+            scene.volumes[0].classification = Classification::Pre;
+            scene.volumes[0].isosurfaces.resize(half == 0 ? 1u : 8u);
+            scene.xray = half == 0 ? XRayDisplay::Opacity : XRayDisplay::Transmittance;
+            all.push_back(featuresOf(scene));
+        }
     // What is skipped goes with everything that can be skipped in.
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].mode != Mode::Average && all[i].mode != Mode::Slice)

@@ -54,6 +54,10 @@ std::vector<Features> integratorFeatures() {
                     scene.quality.integrator = integrator.value;
                     scene.quality.accumulation = accumulation.value;
                     scene.quality.jitter = jitter;
+                    if (mode == Mode::Isosurface)
+                        scene.volumes[0].isosurfaces.resize(accumulation.value == Accumulation::Half ? 3 : 0);
+                    if (!integratesSegments(integrator.value))
+                        scene.volumes[0].classification = jitter ? Classification::Pre : Classification::Post;
                     all.push_back(featuresOf(scene));
                 }
     return all;

@@ -124,6 +124,10 @@ public:
         if (coin()) result.transferFunction = function();
         if (coin()) result.window = Window{finite(), positive()};
         if (coin()) result.isovalue = finite();
+        result.classification = anyOf<Classification>();
+        for (int i = coin() ? integer(0, 3) : 0; i > 0; --i)
+            result.isosurfaces.push_back(
+                {finite(), color(), std::max(unit(), std::numeric_limits<double>::denorm_min())});
         return result;
     }
     Light light() {

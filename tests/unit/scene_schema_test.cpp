@@ -34,7 +34,8 @@ const json& schema() {
 /// A small scene in which every object of the form occurs.
 json fullScene() {
     return json::parse(R"({"pellucid": 1,
-        "volumes": [{"transferFunction": {"points": [{"value": 0, "extinction": 1}]}, "window": {"level": 0, "width": 1}}],
+        "volumes": [{"transferFunction": {"points": [{"value": 0, "extinction": 1}]}, "window": {"level": 0, "width": 1},
+            "isosurfaces": [{"value": 1}]}],
         "lights": [{"kind": "point"}], "material": {}, "quality": {}, "picture": {},
         "camera": {"pose": {"eye": [0, 0, 0], "target": [0, 1, 0]}}})");
 }
@@ -48,6 +49,7 @@ const ObjectPlace kPlaces[] = {{"", ""},
                                {"transferFunction", "/volumes/0/transferFunction"},
                                {"point", "/volumes/0/transferFunction/points/0"},
                                {"window", "/volumes/0/window"},
+                               {"surface", "/volumes/0/isosurfaces/0"},
                                {"light", "/lights/0"},
                                {"material", "/material"},
                                {"camera", "/camera"},
@@ -149,17 +151,19 @@ std::vector<std::string> namesOf() {
 TEST(SceneSchema, ListsOfNamesAreThoseOfTheCode) {
     std::vector<std::string> presets;
     for (const VolumePreset& preset : volumePresets()) presets.push_back(preset.name);
-    const std::map<std::string, std::vector<std::string>> expected{{"mode", namesOf<Mode>()},
-                                                                   {"filter", namesOf<Filter>()},
-                                                                   {"xray", namesOf<XRayDisplay>()},
-                                                                   {"space", namesOf<CompositingSpace>()},
-                                                                   {"kind", namesOf<LightKind>()},
-                                                                   {"projection", namesOf<Projection>()},
-                                                                   {"integrator", namesOf<Integrator>()},
-                                                                   {"accumulation", namesOf<Accumulation>()},
-                                                                   {"toleranceNorm", namesOf<ErrorNorm>()},
-                                                                   {"view", namesOf<AnatomicalView>()},
-                                                                   {"preset", presets}};
+    const std::map<std::string, std::vector<std::string>> expected{
+        {"mode", namesOf<Mode>()},
+        {"filter", namesOf<Filter>()},
+        {"xray", namesOf<XRayDisplay>()},
+        {"space", namesOf<CompositingSpace>()},
+        {"classification", namesOf<Classification>()},
+        {"kind", namesOf<LightKind>()},
+        {"projection", namesOf<Projection>()},
+        {"integrator", namesOf<Integrator>()},
+        {"accumulation", namesOf<Accumulation>()},
+        {"toleranceNorm", namesOf<ErrorNorm>()},
+        {"view", namesOf<AnatomicalView>()},
+        {"preset", presets}};
     std::size_t lists = 0;
     forEachProperty([&](const ObjectPlace& place, const std::string& name, const json& property) {
         if (!property.contains("enum")) return;

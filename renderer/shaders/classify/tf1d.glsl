@@ -7,3 +7,7 @@ vec4 classify(float u) {
     vec4 entry = textureLod(transferTable, u * tableFromValue.x + tableFromValue.y, 0.0);
     return vec4(entry.rgb, entry.a * extinctionPerMm);
 }
+
+vec4 classifySample(float u, vec3 p) {
+    return classify(u);
+}

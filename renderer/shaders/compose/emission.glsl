@@ -6,7 +6,7 @@ void composeBegin() {
 }
 
 bool composeSample(float u, vec3 p, float t, float lengthMm) {
-    vec4 optical = classify(u);
+    vec4 optical = classifySample(u, p);
     radiance += optical.a * lengthMm * optical.rgb;
     return false;
 }

@@ -4,8 +4,8 @@ void composeBegin() {
 }
 
 // Colour of a sample that is not lit yet, and its optical depth.
-vec4 sampleOptics(float u, float lengthMm) {
-    return integrateSample(u, lengthMm);
+vec4 sampleOptics(float u, vec3 p, float lengthMm) {
+    return integrateSample(u, p, lengthMm);
 }
 
 bool composeOptics(vec4 optical, vec3 p, float t) {
@@ -21,7 +21,7 @@ bool composeOptics(vec4 optical, vec3 p, float t) {
 }
 
 bool composeSample(float u, vec3 p, float t, float lengthMm) {
-    return composeOptics(sampleOptics(u, lengthMm), p, t);
+    return composeOptics(sampleOptics(u, p, lengthMm), p, t);
 }
 
 //@when shade
@@ -48,7 +48,8 @@ void composeLit(vec3 start, float tEnter, float extent, float segmentMm) {
             float from = float(next) * segmentMm;
             float lengthMm = max(min(segmentMm, extent - from), 0.0);
             middle = from + 0.5 * lengthMm;
-            optical = sampleOptics(reconstruct(start + middle * ray.texDirection), lengthMm);
+            vec3 p = start + middle * ray.texDirection;
+            optical = sampleOptics(reconstruct(p), p, lengthMm);
             ++next;
         }
         if (composeOptics(optical, start + middle * ray.texDirection, tEnter + middle)) break;

@@ -6,7 +6,7 @@ void composeBegin() {
 }
 
 bool composeSample(float u, vec3 p, float t, float lengthMm) {
-    opticalDepth += classify(u).a * lengthMm;
+    opticalDepth += classifySample(u, p).a * lengthMm;
     return false;
 }
 
