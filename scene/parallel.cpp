@@ -13,6 +13,8 @@ namespace pellucid {
 bool forEachChunk(std::uint64_t count, std::uint64_t chunk,
                   const std::function<void(std::uint64_t begin, std::uint64_t end)>& work,
                   const Progress& progress, std::string_view what) {
+    // Other threads may be done before this one reports: who cancels from the start is heard here.
+    if (!goOn(progress, 0.0, what)) return false;
     const std::uint64_t chunks = count / chunk + (count % chunk != 0 ? 1 : 0);
     std::atomic<std::uint64_t> next{0};
     std::atomic<bool> cancelled{false};
