@@ -146,7 +146,8 @@ TEST_F(Peers, WhatVtkCannotDrawIsLeftOutWithASentence) {
     };
     const Scene scene = ballScene();
     EXPECT_THAT(why(scene, constantVolume(axisAlignedGrid({4, 4, 1}), 1.0)), testing::HasSubstr("empty"));
-    EXPECT_THAT(why(scene, constantVolume(axisAlignedGrid({4, 4, 4}), std::nan(""))), testing::HasSubstr("no number"));
+    EXPECT_THAT(why(scene, constantVolume(axisAlignedGrid({4, 4, 4}), std::nan(""))),
+                testing::HasSubstr("no number"));
     Scene xray = scene;
     xray.mode = Mode::XRay;
     EXPECT_THAT(why(xray, ball()), testing::HasSubstr("xray"));
