@@ -64,18 +64,7 @@ Taps tapsOf(Filter filter, double x) {
 }  // namespace
 
 Field::Field(const Volume& volume, int component, Filter filter)
-    : m_size(volume.grid().size), m_filter(fieldOf(filter)) {
-    const double replacement = volume.storedRange(component).lo;
-    const auto components = static_cast<std::size_t>(volume.components());
-    m_values.resize(static_cast<std::size_t>(volume.voxelCount()));
-    visitVoxels(volume, [&](auto voxels) {
-        for (std::size_t n = 0; n < m_values.size(); ++n) {
-            const auto stored =
-                static_cast<double>(voxels[n * components + static_cast<std::size_t>(component)]);
-            m_values[n] = volume.mapping().physical(std::isfinite(stored) ? stored : replacement);
-        }
-    });
-}
+    : Field(volume.grid().size, filter, physicalValues<double>(volume, component)) {}
 
 Field::Field(glm::ivec3 size, Filter filter, std::vector<double> voxels)
     : m_size(size), m_filter(fieldOf(filter)), m_values(std::move(voxels)) {}

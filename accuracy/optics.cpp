@@ -14,9 +14,7 @@ Optics::Optics(const TransferFunction1D& function, CompositingSpace space, doubl
     : m_points(function.points) {
     for (TransferPoint& point : m_points) {
         point.extinction *= densityScale / unitLengthMm;
-        if (space == CompositingSpace::Linear)
-            for (int channel = 0; channel < 3; ++channel)
-                point.color[channel] = linearFromDisplay(point.color[channel]);
+        if (space == CompositingSpace::Linear) point.color = linearFromDisplay(point.color);
     }
 }
 

@@ -62,19 +62,16 @@ RayIntegrator::RayIntegrator(const Scene& scene, const Volume& volume, double in
       m_gradientFromIndex(glm::transpose(m_indexFromPatient)),
       m_background(scene.picture.background),
       m_lit(usesLights(scene.mode) && !scene.lights->empty()) {
-    if (scene.space == CompositingSpace::Linear)
-        for (int channel = 0; channel < 3; ++channel)
-            m_background[channel] = linearFromDisplay(m_background[channel]);
+    const bool linear = scene.space == CompositingSpace::Linear;
+    if (linear) m_background = linearFromDisplay(m_background);
     if (scene.volumes.front().classification == Classification::Pre && scene.mode != Mode::FirstHit &&
         scene.mode != Mode::Isosurface)
         m_preClassified = preClassified();
     m_surfaces = scene.volumes.front().isosurfaces;
     std::stable_sort(m_surfaces.begin(), m_surfaces.end(),
                      [](const SurfaceLayer& a, const SurfaceLayer& b) { return a.value < b.value; });
-    if (scene.space == CompositingSpace::Linear)
-        for (SurfaceLayer& surface : m_surfaces)
-            for (int channel = 0; channel < 3; ++channel)
-                surface.color[channel] = linearFromDisplay(surface.color[channel]);
+    if (linear)
+        for (SurfaceLayer& surface : m_surfaces) surface.color = linearFromDisplay(surface.color);
     const ValueRange range = volume.physicalRange(scene.volumes.front().component);
     // The second term: rounding of a filter's weights on a constant field.
     m_vanishingGradient =

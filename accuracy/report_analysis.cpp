@@ -51,7 +51,7 @@ void setOrder(ReportSeries& series, const ReportData& data, const Scene& scene) 
         series.remark = "has no step: see tolerances";
         return;
     }
-    if (setting.renderer == "pellucid" && usesTransferFunction(scene.mode)) {
+    if (!isPeer(setting) && usesTransferFunction(scene.mode)) {
         series.theory = theoreticalOrder(setting.integrator);
     }
     std::vector<StepError> curve;

@@ -26,6 +26,11 @@ struct ReportSetting {
     bool operator==(const ReportSetting&) const = default;
 };
 
+/// Drawn by another program's renderer.
+[[nodiscard]] inline bool isPeer(const ReportSetting& setting) {
+    return setting.renderer != "pellucid";
+}
+
 /// What was measured of one setting.
 struct Measurement {
     ReportSetting setting;

@@ -11,9 +11,6 @@ namespace {
 
 using Choose = bool (*)(const ReportSetting& setting, Filter own);
 
-bool isPeer(const ReportSetting& s) {
-    return s.renderer != "pellucid";
-}
 bool isPlain(const ReportSetting& s) {
     return !isPeer(s) && !s.jitter && s.accumulation == Accumulation::Float32;
 }

@@ -228,13 +228,10 @@ std::string reportCsv(const ReportData& data, const ReportAnalysis& analysis) {
             analysis.fronts.begin(), analysis.fronts.end(),
             [i](const auto& front) { return std::find(front.begin(), front.end(), i) != front.end(); });
         csv += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{},{},{},{},{},{},{},{}\n", s.renderer,
-                           s.renderer != "pellucid" ? ""
-                           : s.automatic            ? "automatic"
-                                                    : name(s.integrator),
-                           name(s.filter), s.renderer == "pellucid" ? name(s.accumulation) : "",
-                           s.jitter ? 1 : 0, s.stepVoxels, m.stepMm, optional(s.tolerance), m.firstMs,
-                           m.wallMs, optional(m.gpuMs), m.warmFrames, optional(m.bytes), m.maxError, m.rmse,
-                           m.psnr, m.ssim, onFront ? 1 : 0);
+                           isPeer(s) ? "" : methodName(s), name(s.filter),
+                           isPeer(s) ? "" : name(s.accumulation), s.jitter ? 1 : 0, s.stepVoxels, m.stepMm,
+                           optional(s.tolerance), m.firstMs, m.wallMs, optional(m.gpuMs), m.warmFrames,
+                           optional(m.bytes), m.maxError, m.rmse, m.psnr, m.ssim, onFront ? 1 : 0);
     }
     return csv;
 }

@@ -188,15 +188,13 @@ Scene sceneWith(const Scene& scene, const ReportSetting& setting, glm::ivec2 siz
 }
 
 std::string methodName(const ReportSetting& setting) {
-    if (setting.renderer != "pellucid") return setting.renderer;
+    if (isPeer(setting)) return setting.renderer;
     return setting.automatic ? "automatic" : name(setting.integrator);
 }
 
 std::string seriesName(const ReportSetting& setting) {
-    std::string text =
-        setting.renderer == "pellucid"
-            ? fmt::format("{}, {}, {}", methodName(setting), name(setting.filter), name(setting.accumulation))
-            : setting.renderer;
+    std::string text = methodName(setting);
+    if (!isPeer(setting)) text += fmt::format(", {}, {}", name(setting.filter), name(setting.accumulation));
     if (setting.jitter) text += ", jitter";
     return text;
 }
@@ -207,7 +205,7 @@ std::string settingName(const ReportSetting& setting) {
 }
 
 bool isShown(const ReportSetting& setting, const ReportScope& scope) {
-    if (setting.renderer != "pellucid") return setting.stepVoxels == 1.0;
+    if (isPeer(setting)) return setting.stepVoxels == 1.0;
     if (setting.filter != scope.filters.front()) return false;
     if (setting.tolerance) return *setting.tolerance == 1.0;
     return setting.stepVoxels == 1.0 &&

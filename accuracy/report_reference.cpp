@@ -10,7 +10,7 @@ namespace pellucid::accuracy {
 
 ReferenceKind referenceOf(const ReportSetting& setting, const Scene& scene) {
     const bool lit = usesLights(scene.mode) && !scene.lights->empty();
-    return {fieldOf(setting.filter), setting.renderer != "pellucid", setting.renderer == "vtk-gpu" && lit};
+    return {fieldOf(setting.filter), isPeer(setting), setting.renderer == "vtk-gpu" && lit};
 }
 
 std::string referenceName(const ReferenceKind& kind) {

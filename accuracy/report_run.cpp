@@ -108,7 +108,7 @@ private:
         const auto why = whyNoPeers(m_job.scene, *m_job.volume);
         if (!why) return;
         data.notes.push_back(*why);
-        std::erase_if(settings, [](const ReportSetting& s) { return s.renderer != "pellucid"; });
+        std::erase_if(settings, isPeer);
     }
 
     Result<void> addStalls(ReportData& data) {
@@ -212,7 +212,7 @@ private:
         Measurement m;
         m.setting = setting;
         m.stepMm = stepMm(scene.quality, m_job.volume->grid());
-        const auto drawn = setting.renderer == "pellucid" ? drawOwn(scene, m) : drawPeer(scene, m);
+        const auto drawn = isPeer(setting) ? drawPeer(scene, m) : drawOwn(scene, m);
         if (!drawn) return tl::unexpected(drawn.error());
         m.warmFrames = static_cast<int>(drawn->wall.size());
         m.wallMs = median(drawn->wall);

@@ -51,14 +51,10 @@ struct Case {
     Filter filter = Filter::Trilinear;
 };
 
-bool integrates(Mode mode) {
-    return mode == Mode::Composite || mode == Mode::XRay;
-}
-
 /// What theory says of a case.
 OrderRow expectation(const Case& c) {
-    OrderRow row{"step", name(c.mode), integrates(c.mode) ? name(c.integrator) : "", name(c.filter)};
-    const double rule = integrates(c.mode) ? ruleOrder(c.integrator) : 2.0;
+    OrderRow row{"step", name(c.mode), usesIntegrator(c.mode) ? name(c.integrator) : "", name(c.filter)};
+    const double rule = usesIntegrator(c.mode) ? ruleOrder(c.integrator) : 2.0;
     const double border = smoothnessOf(c.filter) + 1.0;
     row.expected = std::min(rule, border);
     row.tolerance = border > rule ? kSmoothTolerance : kRoughTolerance;
@@ -183,8 +179,8 @@ Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer, con
             for (const auto& integrator : enumNames<Integrator>()) {
                 if (!goOn(progress, fraction, what))
                     return fail(ErrorCode::Cancelled, "the verification was cancelled");
-                if (integrator.value == Integrator::Adaptive && !integrates(mode.value)) continue;
-                if (!integrates(mode.value) && integrator.value != Integrator::Exponential) continue;
+                if (integrator.value == Integrator::Adaptive && !usesIntegrator(mode.value)) continue;
+                if (!usesIntegrator(mode.value) && integrator.value != Integrator::Exponential) continue;
                 // An X-ray has no emission: the same sum as the exponential rule.
                 if (mode.value == Mode::XRay && integrator.value == Integrator::Riemann) continue;
                 if (integrator.value == Integrator::Importance && !boundsBends(filter)) continue;

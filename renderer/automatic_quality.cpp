@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "renderer/error_estimate.h"
-
 namespace pellucid::renderer {
 
 namespace {
@@ -50,10 +48,6 @@ Scene smaller(const Scene& scene) {
     return probe;
 }
 
-bool hasIntegrators(Mode mode) {
-    return mode == Mode::Composite || mode == Mode::XRay;
-}
-
 class Search {
 public:
     Search(const Scene& scene, const DrawTimed& draw)
@@ -72,8 +66,7 @@ private:
     /// Nothing where the plan refuses so short a step.
     Result<std::optional<TimedImage>> drawWith(const Quality& quality, double stepVoxels);
     double errorOf(const ImageF& image) const {
-        const auto error = pictureError(image, m_truth);
-        return m_scene.quality.toleranceNorm == ErrorNorm::Max ? error.max : error.rmse;
+        return errorIn(m_scene.quality.toleranceNorm, pictureError(image, m_truth));
     }
     Candidate between(const Quality& quality, const std::vector<Tried>& tries) const;
 
@@ -99,7 +92,7 @@ Result<void> Search::findTruth() {
     quality.earlyTermination = 0.0;
     quality.accumulation = Accumulation::Float32;
     quality.jitter = false;
-    if (hasIntegrators(m_scene.mode)) quality.integrator = Integrator::IntegralFunctions;
+    if (usesIntegrator(m_scene.mode)) quality.integrator = Integrator::IntegralFunctions;
     for (double step = 0.25; step >= kShortestStep; step /= 2.0) {
         auto drawn = drawWith(quality, step);
         if (!drawn) return tl::unexpected(drawn.error());
@@ -154,22 +147,26 @@ Candidate Search::between(const Quality& quality, const std::vector<Tried>& trie
 }  // namespace
 
 double toleranceOf(const Quality& quality) {
-    return quality.toleranceGreyLevels.value_or(1.0) / 255.0;
+    return toleranceGreyLevels(quality) / 255.0;
 }
 
 bool meetsTolerance(const Quality& quality, const ErrorEstimate& estimate) {
     return errorIn(quality.toleranceNorm, estimate) <= margin(quality.toleranceNorm) * toleranceOf(quality);
 }
 
+double errorIn(ErrorNorm norm, const PictureError& error) {
+    return norm == ErrorNorm::Max ? error.max : error.rmse;
+}
+
 double errorIn(ErrorNorm norm, const ErrorEstimate& estimate) {
-    return norm == ErrorNorm::Max ? estimate.maxError : estimate.rmse;
+    return errorIn(norm, PictureError{estimate.maxError, estimate.rmse});
 }
 
 Result<Quality> chooseQuality(const Scene& scene, const DrawTimed& draw) {
     Search search(scene, draw);
     if (auto found = search.findTruth(); !found) return tl::unexpected(found.error());
     std::vector<Integrator> integrators{Integrator::Exponential};
-    if (hasIntegrators(scene.mode)) integrators.push_back(Integrator::IntegralFunctions);
+    if (usesIntegrator(scene.mode)) integrators.push_back(Integrator::IntegralFunctions);
     std::optional<Candidate> best;
     const double tolerance = toleranceOf(scene.quality);
     for (const Integrator integrator : integrators) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "renderer/frame.h"
+#include "renderer/error_estimate.h"
 
 namespace pellucid::renderer {
 
@@ -39,7 +39,8 @@ struct Attempt {
 
 /// The tolerance in display units (1 = full range).
 [[nodiscard]] double toleranceOf(const Quality& quality);
-/// The estimated error in the norm that the tolerance is in.
+/// An error in the norm that a tolerance is in.
+[[nodiscard]] double errorIn(ErrorNorm norm, const PictureError& error);
 [[nodiscard]] double errorIn(ErrorNorm norm, const ErrorEstimate& estimate);
 
 }  // namespace pellucid::renderer

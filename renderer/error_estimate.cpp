@@ -37,7 +37,7 @@ Scene comparison(const Scene& scene, const Plan& plan) {
     better.quality.earlyTermination = 0.0;
     better.quality.accumulation = Accumulation::Float32;
     better.quality.jitter = false;
-    better.quality.toleranceGreyLevels = 0.125 * scene.quality.toleranceGreyLevels.value_or(1.0);
+    better.quality.toleranceGreyLevels = 0.125 * toleranceGreyLevels(scene.quality);
     better.quality.integrator = withoutTable(scene.quality.integrator);
     return better;
 }
@@ -58,18 +58,23 @@ PictureError pictureError(const ImageF& a, const ImageF& b) {
     return error;
 }
 
+ErrorEstimate errorOf(PictureError difference, const ImageF& picture, const Plan& plan, std::string method) {
+    ErrorEstimate estimate;
+    estimate.maxError = difference.max;
+    estimate.rmse = difference.rmse;
+    estimate.terminationBound = plan.earlyTerminationBound;
+    estimate.tableBound = plan.table.worstError;
+    estimate.probedPixels = static_cast<int>(picture.pixels.size());
+    estimate.method = std::move(method);
+    return estimate;
+}
+
 ErrorEstimate errorBeside(const ImageF& better, const ImageF& picture, const Plan& plan) {
     constexpr double kErrorPerDifference = 1.15;
     const PictureError apart = pictureError(picture, better);
-    ErrorEstimate estimate;
-    estimate.maxError = kErrorPerDifference * apart.max;
-    estimate.rmse = kErrorPerDifference * apart.rmse;
-    estimate.terminationBound = plan.earlyTerminationBound;
-    estimate.tableBound = plan.table.worstError;
-    estimate.probedPixels = static_cast<int>(better.pixels.size());
-    estimate.method =
-        fmt::format("compared with a quarter of the step on {} x {} pixels", better.size.x, better.size.y);
-    return estimate;
+    return errorOf(
+        {kErrorPerDifference * apart.max, kErrorPerDifference * apart.rmse}, picture, plan,
+        fmt::format("compared with a quarter of the step on {} x {} pixels", better.size.x, better.size.y));
 }
 
 Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const ImageF* picture,

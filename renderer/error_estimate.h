@@ -27,6 +27,9 @@ struct PictureError {
 
 /// The scene with a quarter of the step and nothing else that is known to be inexact; `plan` is the scene's.
 [[nodiscard]] Scene comparison(const Scene& scene, const Plan& plan);
+/// A difference of pictures of `plan`'s scene as its error, with the bounds that the plan knows.
+[[nodiscard]] ErrorEstimate errorOf(PictureError difference, const ImageF& picture, const Plan& plan,
+                                    std::string method);
 /// The error of the picture of `plan`'s scene, of which `better` is the comparison's.
 [[nodiscard]] ErrorEstimate errorBeside(const ImageF& better, const ImageF& picture, const Plan& plan);
 

@@ -13,22 +13,9 @@ namespace {
 Quality withStepTimes(Quality quality, double times) {
     quality.stepVoxels *= times;
     if (quality.stepMm) *quality.stepMm *= times;
-    quality.toleranceGreyLevels = times * quality.toleranceGreyLevels.value_or(1.0);
+    quality.toleranceGreyLevels = times * toleranceGreyLevels(quality);
     quality.integrator = withoutTable(quality.integrator);
     return quality;
-}
-
-/// What is known of a picture once the one with twice the step is there, too.
-ErrorEstimate firstIdea(const ImageF& coarser, const Frame& frame) {
-    const PictureError apart = pictureError(coarser, frame.image);
-    ErrorEstimate estimate;
-    estimate.rmse = apart.rmse;
-    estimate.maxError = apart.max;
-    estimate.terminationBound = frame.plan.earlyTerminationBound;
-    estimate.tableBound = frame.plan.table.worstError;
-    estimate.probedPixels = static_cast<int>(frame.image.pixels.size());
-    estimate.method = "a first idea from a picture with twice the step";
-    return estimate;
 }
 
 }  // namespace
@@ -72,7 +59,9 @@ std::shared_ptr<const Frame> Refinement::take(Frame frame) {
         m_shown = std::make_shared<const Frame>(std::move(measured));
         return m_shown;
     }
-    if (m_shown && !frame.error) frame.error = firstIdea(m_shown->image, frame);
+    if (m_shown && !frame.error)
+        frame.error = errorOf(pictureError(m_shown->image, frame.image), frame.image, frame.plan,
+                              "a first idea from a picture with twice the step");
     const bool isKnown = m_scene.quality.automatic || m_scene.mode == Mode::Slice;
     if (taken == Stage::Asked && isKnown) m_stage = Stage::Done;
     m_shown = std::make_shared<const Frame>(std::move(frame));

@@ -119,6 +119,12 @@ struct Renderer::State {
     /// Chooses the quality, draws, and chooses finer ones as long as the estimate is above the tolerance.
     Result<Frame> drawAutomatic(const Scene& scene, const std::vector<VolumePtr>& volumes,
                                 const RenderOptions& options);
+    /// Sees to it that `choice` is one for this scene and volume. Errors: those of drawStated.
+    Result<void> choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                        const RenderOptions& options);
+    /// The settings to draw with after these attempts; nothing when the device allows no shorter step.
+    std::optional<Quality> finer(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                 const std::vector<Attempt>& attempts) const;
     Result<Plan> planFor(const Scene& scene, const std::vector<VolumePtr>& volumes) const;
     /// The same, unless its error could not be estimated since the device refuses the shorter steps for that.
     Result<Plan> planWithEstimate(const Scene& scene, const std::vector<VolumePtr>& volumes) const;
@@ -141,23 +147,15 @@ FrameTables Renderer::State::tablesFor(const Scene& scene, const Plan& plan, con
     if (!usesTransferFunction(scene.mode) || plan.features.surfaces > 0) return tables;
     const auto& function = *scene.volumes.front().transferFunction;
     const auto space = plan.features.space;
-    switch (plan.features.integrator) {
-        case Integrator::Preintegrated2D:
-        case Integrator::Preintegrated3D:
-        case Integrator::Importance: {
-            auto& table = store.preintegration(function, space, layoutPreintegration(scene, plan, facts),
-                                               !options.allowPreview);
-            preview = !completePreintegration(table, !options.allowPreview);
-            tables.preintegration = &table;
-            return tables;
-        }
-        case Integrator::IntegralFunctions:
-        case Integrator::Adaptive:
-            tables.integrals = &store.integrals(function, space, plan.table, integralTableSize(facts.type));
-            break;
-        default:
-            break;
+    if (usesPreintegration(plan.features.integrator)) {
+        auto& table = store.preintegration(function, space, layoutPreintegration(scene, plan, facts),
+                                           !options.allowPreview);
+        preview = !completePreintegration(table, !options.allowPreview);
+        tables.preintegration = &table;
+        return tables;
     }
+    if (usesRunningIntegrals(plan.features.integrator))
+        tables.integrals = &store.integrals(function, space, plan.table, integralTableSize(facts.type));
     tables.transfer = &store.table(function, space, plan.table);
     return tables;
 }
@@ -272,27 +270,44 @@ Result<Frame> Renderer::State::drawStated(const Scene& scene, const std::vector<
     return frame;
 }
 
+Result<void> Renderer::State::choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                     const RenderOptions& options) {
+    Scene look = scene;
+    look.camera = Camera{};
+    look.picture = Picture{};
+    if (choice && !volumes.empty() && choice->volume.lock() == volumes.front() && choice->look == look)
+        return {};
+    if (auto plan = planFor(scene, volumes); !plan) return tl::unexpected(plan.error());
+    const auto draw = [&](const Scene& probe) -> Result<TimedImage> {
+        auto plan = planWithEstimate(probe, volumes);
+        if (!plan) return tl::unexpected(plan.error());
+        FrameCost cost;
+        auto image = drawOnce(probe, *plan, volumes.front(), options, cost);
+        if (!image) return tl::unexpected(image.error());
+        return TimedImage{std::move(*image), cost.gpuMs};
+    };
+    auto quality = chooseQuality(scene, draw);
+    if (!quality) return tl::unexpected(quality.error());
+    choice = Choice{look, volumes.front(), *quality};
+    return {};
+}
+
+std::optional<Quality> Renderer::State::finer(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                              const std::vector<Attempt>& attempts) const {
+    Scene stated = scene;
+    stated.quality = refined(attempts);
+    if (planWithEstimate(stated, volumes)) return stated.quality;
+    // Devices refuse rays of too many samples; half the step may still be possible.
+    stated.quality.stepVoxels = 0.5 * attempts.back().quality.stepVoxels;
+    if (planWithEstimate(stated, volumes)) return stated.quality;
+    return std::nullopt;
+}
+
 Result<Frame> Renderer::State::drawAutomatic(const Scene& scene, const std::vector<VolumePtr>& volumes,
                                              const RenderOptions& options) {
     constexpr std::size_t kMostAttempts = 8;
     const auto start = std::chrono::steady_clock::now();
-    Scene look = scene;
-    look.camera = Camera{};
-    look.picture = Picture{};
-    if (auto plan = planFor(scene, volumes); !plan) return tl::unexpected(plan.error());
-    if (!choice || choice->volume.lock() != volumes.front() || !(choice->look == look)) {
-        const auto draw = [&](const Scene& probe) -> Result<TimedImage> {
-            auto plan = planWithEstimate(probe, volumes);
-            if (!plan) return tl::unexpected(plan.error());
-            FrameCost cost;
-            auto image = drawOnce(probe, *plan, volumes.front(), options, cost);
-            if (!image) return tl::unexpected(image.error());
-            return TimedImage{std::move(*image), cost.gpuMs};
-        };
-        auto quality = chooseQuality(scene, draw);
-        if (!quality) return tl::unexpected(quality.error());
-        choice = Choice{look, volumes.front(), *quality};
-    }
+    if (auto chosen = choose(scene, volumes, options); !chosen) return tl::unexpected(chosen.error());
     RenderOptions estimated = options;
     estimated.estimateError = true;
     // The largest error may be at any pixel.
@@ -305,15 +320,12 @@ Result<Frame> Renderer::State::drawAutomatic(const Scene& scene, const std::vect
         auto frame = drawStated(stated, volumes, estimated);
         if (!frame) return frame;
         attempts.push_back({choice->quality, errorIn(scene.quality.toleranceNorm, *frame->error)});
-        if (!meetsTolerance(scene.quality, *frame->error) && attempts.size() < kMostAttempts) {
-            stated.quality = refined(attempts);
-            // Devices refuse rays of too many samples; half the step may still be possible.
-            if (!planWithEstimate(stated, volumes))
-                stated.quality.stepVoxels = 0.5 * choice->quality.stepVoxels;
-            if (planWithEstimate(stated, volumes)) {
-                choice->quality = stated.quality;
-                continue;
-            }
+        std::optional<Quality> next;
+        if (!meetsTolerance(scene.quality, *frame->error) && attempts.size() < kMostAttempts)
+            next = finer(scene, volumes, attempts);
+        if (next) {
+            choice->quality = *next;
+            continue;
         }
         frame->cost.prepareMs += beforeMs;
         frame->cost.wallMs += beforeMs;

@@ -59,6 +59,10 @@ double linearFromDisplay(double encoded) {
     return std::copysign(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4), encoded);
 }
 
+glm::dvec3 linearFromDisplay(glm::dvec3 encoded) {
+    return {linearFromDisplay(encoded.r), linearFromDisplay(encoded.g), linearFromDisplay(encoded.b)};
+}
+
 double displayFromLinear(double linear) {
     const double x = std::abs(linear);
     return std::copysign(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055, linear);

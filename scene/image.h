@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct Image8 {
 
 /// IEC 61966-2-1 (sRGB) in float; identity-safe outside [0, 1] (mirrored below 0, continued above 1).
 [[nodiscard]] double linearFromDisplay(double encoded);
+/// The same for each channel.
+[[nodiscard]] glm::dvec3 linearFromDisplay(glm::dvec3 encoded);
 [[nodiscard]] double displayFromLinear(double linear);
 
 }  // namespace pellucid

@@ -138,8 +138,13 @@ private:
     int m_newSize;
 };
 
+/// As a number that may be beyond an int's range until check() has seen it.
+double exactNewSize(int size, double factor) {
+    return std::floor((size - 1) * factor + 1e-9) + 1.0;
+}
+
 int newSize(int size, double factor) {
-    return static_cast<int>(std::floor((size - 1) * factor + 1e-9)) + 1;
+    return static_cast<int>(exactNewSize(size, factor));
 }
 
 std::unique_ptr<LineResampler> linesFor(const ResampleOptions& options, int size) {
@@ -154,21 +159,6 @@ struct Samples {
     glm::ivec3 size;
     std::vector<float> values;
 };
-
-Samples samplesOf(const Volume& volume, int component) {
-    Samples samples{volume.grid().size, std::vector<float>(volume.voxelCount())};
-    const double replacement = volume.storedRange(component).lo;
-    const auto components = static_cast<std::size_t>(volume.components());
-    visitVoxels(volume, [&](auto voxels) {
-        for (std::size_t n = 0; n < samples.values.size(); ++n) {
-            const auto stored =
-                static_cast<double>(voxels[n * components + static_cast<std::size_t>(component)]);
-            samples.values[n] =
-                static_cast<float>(volume.mapping().physical(std::isfinite(stored) ? stored : replacement));
-        }
-    });
-    return samples;
-}
 
 /// False when it was cancelled.
 bool resampleAxis(Samples& samples, int axis, const ResampleOptions& options) {
@@ -209,7 +199,7 @@ Result<void> check(const Volume& volume, const ResampleOptions& options) {
             ErrorCode::InvalidArgument,
             fmt::format("the factor is {:g}; the Fourier method takes whole factors from 2 to 8", factor));
     double bytes = 4.0 * volume.components();
-    for (int axis = 0; axis < 3; ++axis) bytes *= std::floor((volume.grid().size[axis] - 1) * factor) + 1.0;
+    for (int axis = 0; axis < 3; ++axis) bytes *= exactNewSize(volume.grid().size[axis], factor);
     if (bytes > static_cast<double>(kMaxBytes))
         return fail(ErrorCode::TooLarge,
                     fmt::format("the resampled volume would take {:.1f} GB; the limit is {} GB",
@@ -247,7 +237,7 @@ Result<VolumePtr> resampled(const Volume& volume, const ResampleOptions& options
     }
     std::vector<std::byte> voxels;
     for (std::size_t component = 0; component < components; ++component) {
-        Samples samples = samplesOf(volume, static_cast<int>(component));
+        Samples samples{volume.grid().size, physicalValues<float>(volume, static_cast<int>(component))};
         for (int axis = 0; axis < 3; ++axis)
             if (!resampleAxis(samples, axis, options))
                 return fail(ErrorCode::Cancelled, "the resampling was cancelled");

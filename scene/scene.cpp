@@ -32,6 +32,10 @@ Scene completed(const Scene& scene, const std::vector<VolumePtr>& volumes) {
     return full;
 }
 
+double toleranceGreyLevels(const Quality& quality) {
+    return quality.toleranceGreyLevels.value_or(1.0);
+}
+
 double stepMm(const Quality& quality, const Grid& grid) {
     return quality.stepMm ? *quality.stepMm : quality.stepVoxels * smallestSpacingMm(grid);
 }
@@ -55,6 +59,10 @@ bool boundsBends(Filter filter) {
 bool usesTransferFunction(Mode mode) {
     return mode == Mode::Composite || mode == Mode::XRay || mode == Mode::Emission ||
            mode == Mode::FirstHit || mode == Mode::Isosurface;
+}
+
+bool usesIntegrator(Mode mode) {
+    return mode == Mode::Composite || mode == Mode::XRay;
 }
 
 bool usesLights(Mode mode) {

@@ -164,6 +164,9 @@ struct Scene {
 /// pointer.
 [[nodiscard]] Result<void> validate(const Scene& scene);
 
+/// The error asked for, in grey levels: what is stated, or 1.
+[[nodiscard]] double toleranceGreyLevels(const Quality& quality);
+
 /// Ray step in mm for a grid.
 [[nodiscard]] double stepMm(const Quality& quality, const Grid& grid);
 
@@ -173,6 +176,8 @@ struct Scene {
 [[nodiscard]] Filter fieldOf(Filter filter);
 /// Filters whose second derivatives stay within the second differences of the voxels.
 [[nodiscard]] bool boundsBends(Filter filter);
+/// Modes whose segments are integrated as Quality::integrator says.
+[[nodiscard]] bool usesIntegrator(Mode mode);
 /// Modes that are lit.
 [[nodiscard]] bool usesLights(Mode mode);
 /// Modes shown through the window.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -143,6 +144,23 @@ decltype(auto) visitVoxels(const Volume& volume, F&& f) {
             break;
     }
     return f(typed(double{}));
+}
+
+/// Physical values of one component, i fastest; what is not finite counts as the smallest finite stored
+/// value.
+template <class Real>
+[[nodiscard]] std::vector<Real> physicalValues(const Volume& volume, int component) {
+    std::vector<Real> values(static_cast<std::size_t>(volume.voxelCount()));
+    const double replacement = volume.storedRange(component).lo;
+    const auto stride = static_cast<std::size_t>(volume.components());
+    visitVoxels(volume, [&](auto voxels) {
+        for (std::size_t n = 0; n < values.size(); ++n) {
+            const auto stored = static_cast<double>(voxels[n * stride + static_cast<std::size_t>(component)]);
+            values[n] =
+                static_cast<Real>(volume.mapping().physical(std::isfinite(stored) ? stored : replacement));
+        }
+    });
+    return values;
 }
 
 /// The result of narrowing 64-bit integers: int32 or uint32 when every value fits (exact), else float64 with

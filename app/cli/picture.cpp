@@ -58,10 +58,9 @@ std::string errorText(const std::optional<renderer::ErrorEstimate>& error) {
 std::string choiceText(const renderer::Frame& frame, const Quality& asked) {
     if (!frame.chosen || !frame.error) return {};
     const bool isMet = renderer::meetsTolerance(asked, *frame.error);
-    return fmt::format("chosen: {}, steps of {:.3g} voxels; the tolerance of {:g} grey levels {} is {}\n",
+    return fmt::format("chosen: {}, steps of {:.3g} voxels; the tolerance of {} is {}\n",
                        name(frame.chosen->integrator), frame.chosen->stepVoxels,
-                       asked.toleranceGreyLevels.value_or(1.0),
-                       asked.toleranceNorm == ErrorNorm::Max ? "anywhere" : "RMSE",
+                       renderer::toleranceText(asked),
                        isMet ? "met" : "NOT met: the estimate allows for its own uncertainty");
 }
 

@@ -26,7 +26,7 @@ QString greyLevels(double error) {
 QString askedText(const std::optional<Quality>& chosen, ErrorNorm norm,
                   const renderer::ErrorEstimate& error) {
     if (!chosen || chosen->toleranceNorm != norm) return {};
-    const QString asked = QString::number(chosen->toleranceGreyLevels.value_or(1.0));
+    const QString asked = QString::number(toleranceGreyLevels(*chosen));
     return (renderer::meetsTolerance(*chosen, error) ? tr(" (asked %1)") : tr(" (asked %1: NOT met)"))
         .arg(asked);
 }
@@ -45,7 +45,7 @@ QString errorText(const renderer::Frame& frame, bool isFinal) {
 QString settingsText(const renderer::Plan& plan, double smallestSpacingMm) {
     const Mode mode = plan.features.mode;
     const QString steps = tr("steps of %1 voxels").arg(plan.stepMm / smallestSpacingMm, 0, 'g', 2);
-    if (mode != Mode::Composite && mode != Mode::XRay) return steps;
+    if (!usesIntegrator(mode)) return steps;
     return steps + QStringLiteral(", ") + QString::fromLatin1(name(plan.features.integrator));
 }
 

@@ -179,7 +179,7 @@ void QualityPanel::chooseUnit(int index) {
     if (index == kByError) {
         m_document.change("Quality by error", {}, [](Scene& scene) {
             scene.quality.automatic = true;
-            scene.quality.toleranceGreyLevels = scene.quality.toleranceGreyLevels.value_or(1.0);
+            scene.quality.toleranceGreyLevels = toleranceGreyLevels(scene.quality);
         });
         return;
     }
@@ -209,18 +209,17 @@ void QualityPanel::syncQuality() {
     const Scene& scene = m_document.scene();
     const Quality& quality = scene.quality;
     m_unit->setCurrentIndex(quality.automatic ? kByError : kByStep);
-    m_tolerance->setValue(quality.toleranceGreyLevels.value_or(1.0));
+    m_tolerance->setValue(toleranceGreyLevels(quality));
     m_norm->setCurrentIndex(static_cast<int>(quality.toleranceNorm));
     m_step->setValue(quality.stepMm ? *quality.stepMm / smallestSpacingMm(m_document.volume().grid())
                                     : quality.stepVoxels);
     m_integrator->setCurrentIndex(static_cast<int>(quality.integrator));
 
-    const bool hasIntegrators = scene.mode == Mode::Composite || scene.mode == Mode::XRay;
-    const bool isAdaptive = hasIntegrators && quality.integrator == Integrator::Adaptive;
+    const bool isAdaptive = usesIntegrator(scene.mode) && quality.integrator == Integrator::Adaptive;
     m_form->setRowVisible(m_tolerance, quality.automatic || isAdaptive);
     m_form->setRowVisible(m_norm, quality.automatic);
     m_form->setRowVisible(m_step, !quality.automatic);
-    m_form->setRowVisible(m_integrator, !quality.automatic && hasIntegrators);
+    m_form->setRowVisible(m_integrator, !quality.automatic && usesIntegrator(scene.mode));
 }
 
 void QualityPanel::pickBackground() {

@@ -115,8 +115,8 @@ void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan, doubl
     const double longestRay = plan.samplesPerRay * plan.stepMm;
     const double shortest = std::max(kShortest * plan.stepMm, 4.0 * longestRay / maxLoopTurns);
     uniforms.emplace_back("shortestStepMm", static_cast<float>(shortest));
-    uniforms.emplace_back(
-        "tolerance", static_cast<float>(scene.quality.toleranceGreyLevels.value_or(1.0) / 255.0 * kSafety));
+    uniforms.emplace_back("tolerance",
+                          static_cast<float>(toleranceGreyLevels(scene.quality) / 255.0 * kSafety));
     uniforms.emplace_back("mostSegments",
                           static_cast<int>(std::min(4.0 * longestRay / shortest + 64.0, maxLoopTurns)));
 }
@@ -124,8 +124,7 @@ void addAdaptive(Uniforms& uniforms, const Scene& scene, const Plan& plan, doubl
 void addImportance(Uniforms& uniforms, const Scene& scene, const Plan& plan, const Grid& grid) {
     if (plan.features.integrator != Integrator::Importance) return;
     uniforms.emplace_back("longestStepMm", static_cast<float>(plan.longestStepMm));
-    uniforms.emplace_back("importanceFromTexture",
-                          glm::vec3(glm::dvec3(grid.size) / double{kImportanceBlock}));
+    uniforms.emplace_back("importanceFromTexture", glm::vec3(glm::dvec3(grid.size) / double{kBlockEdge}));
     uniforms.emplace_back("kinkWeight", static_cast<float>(kinkWeight(plan.features.filter)));
     uniforms.emplace_back("layerMm", static_cast<float>(layerMm(grid)));
     uniforms.emplace_back("eightTolerances", static_cast<float>(8.0 * importanceTolerance(scene.quality)));
@@ -155,9 +154,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     addImportance(uniforms, scene, plan, grid);
     glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
     const bool linear = plan.features.space == CompositingSpace::Linear;
-    if (linear)
-        for (int channel = 0; channel < 3; ++channel)
-            background[channel] = linearFromDisplay(background[channel]);
+    if (linear) background = linearFromDisplay(background);
     uniforms.emplace_back("background", glm::vec3(background));
     uniforms.emplace_back("transparentPicture", scene.picture.transparent ? 1 : 0);
     uniforms.emplace_back("material", glm::vec4(scene.material.ambient, scene.material.diffuse,
@@ -205,9 +202,8 @@ std::vector<glm::vec4> surfaceBlock(std::vector<SurfaceLayer> surfaces, Composit
                      [&](const SurfaceLayer& a, const SurfaceLayer& b) { return texel(a) < texel(b); });
     std::vector<glm::vec4> block;
     for (const SurfaceLayer& surface : surfaces) {
-        glm::dvec3 color = surface.color;
-        if (space == CompositingSpace::Linear)
-            for (int channel = 0; channel < 3; ++channel) color[channel] = linearFromDisplay(color[channel]);
+        const glm::dvec3 color =
+            space == CompositingSpace::Linear ? linearFromDisplay(surface.color) : surface.color;
         block.emplace_back(glm::vec3(color), static_cast<float>(surface.opacity));
         block.emplace_back(texel(surface), 0.0f, 0.0f, 0.0f);
     }

@@ -8,6 +8,15 @@ bool integratesSegments(Integrator integrator) {
     return integrator != Integrator::Riemann && integrator != Integrator::Exponential;
 }
 
+bool usesPreintegration(Integrator integrator) {
+    return integrator == Integrator::Preintegrated2D || integrator == Integrator::Preintegrated3D ||
+           integrator == Integrator::Importance;
+}
+
+bool usesRunningIntegrals(Integrator integrator) {
+    return integrator == Integrator::IntegralFunctions || integrator == Integrator::Adaptive;
+}
+
 Features featuresOf(const Scene& scene) {
     Features features;
     features.mode = scene.mode;
@@ -24,8 +33,7 @@ Features featuresOf(const Scene& scene) {
         features.classification = scene.volumes.front().classification;
     if (scene.mode == Mode::Isosurface && !scene.volumes.empty())
         features.surfaces = static_cast<int>(scene.volumes.front().isosurfaces.size());
-    if (scene.mode == Mode::Composite || scene.mode == Mode::XRay)
-        features.integrator = scene.quality.integrator;
+    if (usesIntegrator(scene.mode)) features.integrator = scene.quality.integrator;
     // The two one-sample rules differ in emission only.
     if (scene.mode == Mode::XRay && features.integrator == Integrator::Riemann)
         features.integrator = Integrator::Exponential;

@@ -38,6 +38,11 @@ struct Features {
 /// Integrators that look at both ends of a segment; the others take one sample in its middle.
 [[nodiscard]] bool integratesSegments(Integrator integrator);
 
+/// Integrators that look segments up in a table over the values at both ends.
+[[nodiscard]] bool usesPreintegration(Integrator integrator);
+/// Integrators that make segments from running integrals of the transfer function.
+[[nodiscard]] bool usesRunningIntegrals(Integrator integrator);
+
 /// Pure; drops what cannot matter (no lights in a mode that does not shade, no termination where nothing
 /// saturates). Precondition: the scene is completed().
 [[nodiscard]] Features featuresOf(const Scene& scene);

@@ -77,7 +77,7 @@ void addRow(const RowStar& rows, std::size_t width, Differences* blocks) {
                                 std::abs(rows.here[n] - xAfter - rows.yAfter[n] + rows.yAfter[n + 1]),
                                 std::abs(rows.here[n] - xAfter - rows.zAfter[n] + rows.zAfter[n + 1]),
                                 std::abs(rows.here[n] - rows.yAfter[n] - rows.zAfter[n] + rows.yzAfter[n])};
-        Differences& block = blocks[i / kImportanceBlock];
+        Differences& block = blocks[i / kBlockEdge];
         for (std::size_t d = 0; d < found.size(); ++d) block[d] = std::max(block[d], found[d]);
     }
 }
@@ -89,14 +89,14 @@ std::size_t blockIndex(glm::ivec3 at, glm::ivec3 size) {
 /// Differences of each block alone; empty when it was cancelled.
 std::vector<Differences> differencesOf(const Volume& volume, int component, glm::ivec3 blocks,
                                        const Progress& progress) {
-    std::vector<Differences> all(blockIndex({0, 0, blocks.z}, blocks), Differences{});
+    std::vector<Differences> all(cellCount(blocks), Differences{});
     const glm::ivec3 size = volume.grid().size;
     const bool whole = visitVoxels(volume, [&]<class T>(std::span<const T> voxels) {
         const Rows<T> rows(volume, component, voxels);
         const auto layers = [&](std::uint64_t begin, std::uint64_t end) {
             RowStar star;
-            const int from = static_cast<int>(begin) * kImportanceBlock;
-            const int to = std::min(static_cast<int>(end) * kImportanceBlock, size.z);
+            const int from = static_cast<int>(begin) * kBlockEdge;
+            const int to = std::min(static_cast<int>(end) * kBlockEdge, size.z);
             for (int z = from; z < to; ++z)
                 for (int y = 0; y < size.y; ++y) {
                     rows.read(y, z, star.here);
@@ -106,7 +106,7 @@ std::vector<Differences> differencesOf(const Volume& volume, int component, glm:
                     rows.read(y, z + 1, star.zAfter);
                     rows.read(y + 1, z + 1, star.yzAfter);
                     addRow(star, static_cast<std::size_t>(size.x),
-                           &all[blockIndex({0, y / kImportanceBlock, z / kImportanceBlock}, blocks)]);
+                           &all[blockIndex({0, y / kBlockEdge, z / kBlockEdge}, blocks)]);
                 }
         };
         return forEachChunk(static_cast<std::uint64_t>(blocks.z), 1, layers, progress,
@@ -162,14 +162,8 @@ private:
 
 }  // namespace
 
-glm::ivec3 importanceBlocks(glm::ivec3 voxels) {
-    return (voxels + kImportanceBlock - 1) / kImportanceBlock;
-}
-
 std::uint64_t importanceBytes(const Grid& grid) {
-    const glm::ivec3 blocks = importanceBlocks(grid.size);
-    return static_cast<std::uint64_t>(blocks.x) * static_cast<std::uint64_t>(blocks.y) *
-           static_cast<std::uint64_t>(blocks.z) * sizeof(glm::vec2);
+    return cellCount(blockCount(grid.size)) * sizeof(glm::vec2);
 }
 
 double layerMm(const Grid& grid) {
@@ -181,11 +175,11 @@ double layerMm(const Grid& grid) {
 double longestImportanceStepMm(const Grid& grid, Filter filter) {
     // A block reaches half a voxel before its first voxel; the B-spline's values take one voxel more.
     const double beside = fieldOf(filter) == Filter::Trilinear ? 0.5 : 1.5;
-    return (kImportanceBlock - beside) * layerMm(grid);
+    return (kBlockEdge - beside) * layerMm(grid);
 }
 
 double importanceTolerance(const Quality& quality) {
-    return 0.5 / 255.0 * quality.toleranceGreyLevels.value_or(1.0);
+    return 0.5 / 255.0 * toleranceGreyLevels(quality);
 }
 
 double kinkWeight(Filter filter) {
@@ -200,8 +194,8 @@ double importanceStepMm(glm::vec2 bend, Filter filter, double tolerance, double 
 }
 
 Result<ImportanceGrid> importanceOf(const Volume& volume, int component, const Progress& progress) {
-    const glm::ivec3 blocks = importanceBlocks(volume.grid().size);
-    ImportanceGrid grid{blocks, std::vector<glm::vec2>(blockIndex({0, 0, blocks.z}, blocks))};
+    const glm::ivec3 blocks = blockCount(volume.grid().size);
+    ImportanceGrid grid{blocks, std::vector<glm::vec2>(cellCount(blocks))};
     const ValueRange range = volume.storedRange(component);
     if (!(range.hi > range.lo)) return grid;  // nothing bends
     const std::vector<Differences> all = differencesOf(volume, component, blocks, progress);

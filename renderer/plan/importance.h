@@ -7,20 +7,18 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "renderer/plan/blocks.h"
 #include "scene/progress.h"
 #include "scene/result.h"
 #include "scene/scene.h"
 
 namespace pellucid::renderer {
 
-/// Edge of a block in voxels.
-inline constexpr int kImportanceBlock = 4;
-
-/// How much the data bend in and around each block of voxels, from the data alone: what a transfer function
-/// makes of it is the business of pre-integration. For a ray's segment of length d that starts in the block
-/// and is no longer than longestImportanceStepMm(), the reconstructed value deviates from the line between
-/// its end values by at most (curvature (d / layer)^2 + kinkWeight kinks) / 8 of the data's range, layer
-/// being layerMm(grid) (docs/equations.md, 22).
+/// How much the data bend in and around each block of voxels (blocks.h), from the data alone: what a transfer
+/// function makes of it is the business of pre-integration. For a ray's segment of length d that starts in
+/// the block and is no longer than longestImportanceStepMm(), the reconstructed value deviates from the line
+/// between its end values by at most (curvature (d / layer)^2 + kinkWeight kinks) / 8 of the data's range,
+/// layer being layerMm(grid) (docs/equations.md, 22).
 struct ImportanceGrid {
     glm::ivec3 size{0};            ///< Blocks.
     std::vector<glm::vec2> bends;  ///< Curvature and kinks, i fastest.
@@ -30,8 +28,7 @@ struct ImportanceGrid {
 [[nodiscard]] Result<ImportanceGrid> importanceOf(const Volume& volume, int component,
                                                   const Progress& progress = {});
 
-/// Blocks along each axis; and bytes of the texture.
-[[nodiscard]] glm::ivec3 importanceBlocks(glm::ivec3 voxels);
+/// Bytes of the texture.
 [[nodiscard]] std::uint64_t importanceBytes(const Grid& grid);
 
 /// Thickness of the thinnest layer of voxels: the smallest spacing where the axes are at right angles.

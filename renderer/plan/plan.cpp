@@ -124,7 +124,7 @@ void addTransferTable(Plan& plan, const Scene& scene, const VolumeFacts& facts) 
 
 void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
     const auto integrator = plan.features.integrator;
-    if (has(plan, "integrate", "preintegrated_2d") || has(plan, "integrate", "preintegrated_3d")) {
+    if (usesPreintegration(integrator)) {
         const auto layout = layoutPreintegration(scene, plan, facts);
         const auto entries =
             static_cast<std::uint64_t>(layout.size) * static_cast<std::uint64_t>(layout.size * layout.layers);
@@ -133,7 +133,7 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
              entries * 16,
              fmt::format("{0} x {0} end values over {1:g} ... {2:g}, {3} length{4}", layout.size, layout.lo,
                          layout.hi, layout.layers, layout.layers == 1 ? "" : "s")});
-    } else if (integrator == Integrator::IntegralFunctions || integrator == Integrator::Adaptive) {
+    } else if (usesRunningIntegrals(integrator)) {
         const int size = integralTableSize(facts.type);
         plan.resources.push_back({"integral table", "texture 1D RGBA32F",
                                   static_cast<std::uint64_t>(size) * 16,
@@ -144,19 +144,15 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
             {"importance volume", "texture 3D RG32F", importanceBytes(facts.grid),
              fmt::format("how much the data bend in blocks of {0} x {0} x {0} voxels; steps "
                          "of {1:g} to {2:g} mm",
-                         kImportanceBlock, plan.stepMm, plan.longestStepMm)});
-}
-
-std::string automaticText(const Quality& quality) {
-    if (!quality.automatic) return {};
-    return fmt::format(
-        "integrator and step are chosen when drawn, for an error of at most {:g} grey levels {}; shown is "
-        "what is stated",
-        quality.toleranceGreyLevels.value_or(1.0),
-        quality.toleranceNorm == ErrorNorm::Max ? "anywhere" : "RMSE");
+                         kBlockEdge, plan.stepMm, plan.longestStepMm)});
 }
 
 }  // namespace
+
+std::string toleranceText(const Quality& quality) {
+    return fmt::format("{:g} grey levels {}", toleranceGreyLevels(quality),
+                       quality.toleranceNorm == ErrorNorm::Max ? "anywhere" : "RMSE");
+}
 
 VolumeFacts factsOf(const Volume& volume, int component) {
     return {volume.grid(), volume.type(), volume.physicalRange(component), volume.mapping().slope < 0.0};
@@ -199,7 +195,10 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     if (plan.features.lights > kMaxLights)
         return fail(ErrorCode::TooLarge, fmt::format("the scene has {} lights; at most {} are allowed",
                                                      plan.features.lights, kMaxLights));
-    if (scene.mode != Mode::Slice) plan.automatic = automaticText(scene.quality);
+    if (scene.quality.automatic && scene.mode != Mode::Slice)
+        plan.automatic = fmt::format(
+            "integrator and step are chosen when drawn, for an error of at most {}; shown is what is stated",
+            toleranceText(scene.quality));
     if (auto fine = checkChoices(plan.features, scene.quality); !fine) return tl::unexpected(fine.error());
     plan.stepMm = stepMm(scene.quality, facts.grid);
     plan.longestStepMm = plan.stepMm;
@@ -225,7 +224,8 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     addPreintegration(plan, scene, facts);
     if (plan.features.filter == Filter::TricubicBSplineLut)
         plan.resources.push_back(
-            {"filter weights", "texture 1D RGBA32F", 128 * 16, "four weights at 128 places between voxels"});
+            {"filter weights", "texture 1D RGBA32F", kFilterWeightTexels * 16,
+             fmt::format("four weights at {} places between voxels", kFilterWeightTexels)});
     if (plan.features.jitter)
         plan.resources.push_back(
             {"blue noise", "texture 2D R32F", 64 * 64 * 4, "one offset a pixel, repeated"});

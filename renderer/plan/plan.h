@@ -64,6 +64,9 @@ struct TableLayout {
     bool operator==(const TableLayout&) const = default;
 };
 
+/// Entries of the table of B-spline weights, for places 0 to 1 between two voxels.
+inline constexpr int kFilterWeightTexels = 128;
+
 /// What drawing a scene needs, and nothing else: what is not listed is neither compiled, allocated, computed
 /// nor bound. Made without a GPU.
 struct Plan {
@@ -103,6 +106,9 @@ struct DeviceLimits {
 /// Size of the float render target of a picture: as wide, and as high as 128 MB allow. Larger pictures are
 /// drawn in bands.
 [[nodiscard]] glm::ivec2 targetSize(glm::ivec2 picture);
+
+/// The error asked for: "0.5 grey levels RMSE", "4 grey levels anywhere".
+[[nodiscard]] std::string toleranceText(const Quality& quality);
 
 [[nodiscard]] std::string planText(const Plan& plan);
 [[nodiscard]] nlohmann::ordered_json planJson(const Plan& plan);

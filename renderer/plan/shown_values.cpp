@@ -15,6 +15,14 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
+/// Adds an interval to ascending ones; those that meet become one.
+void append(std::vector<ValueRange>& found, ValueRange range) {
+    if (!found.empty() && range.lo <= found.back().hi)
+        found.back().hi = std::max(found.back().hi, range.hi);
+    else
+        found.push_back(range);
+}
+
 /// Intervals on which the function's extinction exceeds `least`, or reaches it when that is above 0. Closed,
 /// so a little more than that at steps and where it starts to rise.
 std::vector<ValueRange> support(const TransferFunction1D& function, double least) {
@@ -23,13 +31,7 @@ std::vector<ValueRange> support(const TransferFunction1D& function, double least
     };
     const auto& points = function.points;
     std::vector<ValueRange> found;
-    const auto add = [&](double lo, double hi) {
-        if (!found.empty() && lo <= found.back().hi)
-            found.back().hi = std::max(found.back().hi, hi);
-        else
-            found.push_back({lo, hi});
-    };
-    if (shows(points.front().extinction)) add(-kEndless, points.front().value);
+    if (shows(points.front().extinction)) append(found, {-kEndless, points.front().value});
     for (std::size_t i = 1; i < points.size(); ++i) {
         const auto& a = points[i - 1];
         const auto& b = points[i];
@@ -37,9 +39,9 @@ std::vector<ValueRange> support(const TransferFunction1D& function, double least
         // The piece is linear: it crosses the threshold once where only one end shows.
         const double f = (least - a.extinction) / (b.extinction - a.extinction);
         const double crossing = std::clamp(a.value + f * (b.value - a.value), a.value, b.value);
-        add(shows(a.extinction) ? a.value : crossing, shows(b.extinction) ? b.value : crossing);
+        append(found, {shows(a.extinction) ? a.value : crossing, shows(b.extinction) ? b.value : crossing});
     }
-    if (shows(points.back().extinction)) add(points.back().value, kEndless);
+    if (shows(points.back().extinction)) append(found, {points.back().value, kEndless});
     return found;
 }
 
@@ -48,18 +50,9 @@ double coarsestEntry(const Scene& scene, const Plan& plan, const VolumeFacts& fa
     const TableLayout& table = plan.table;
     if (!(table.hi > table.lo)) return 0.0;
     int size = table.size > 0 ? table.size : std::numeric_limits<int>::max();
-    switch (plan.features.integrator) {
-        case Integrator::Preintegrated2D:
-        case Integrator::Preintegrated3D:
-            size = std::min(size, layoutPreintegration(scene, plan, facts).size);
-            break;
-        case Integrator::IntegralFunctions:
-        case Integrator::Adaptive:
-            size = std::min(size, integralTableSize(facts.type));
-            break;
-        default:
-            break;
-    }
+    if (usesPreintegration(plan.features.integrator))
+        size = std::min(size, layoutPreintegration(scene, plan, facts).size);
+    if (usesRunningIntegrals(plan.features.integrator)) size = std::min(size, integralTableSize(facts.type));
     return (table.hi - table.lo) / (size - 1);
 }
 
@@ -75,13 +68,7 @@ std::vector<ValueRange> shownByFunction(const Scene& scene, const Plan& plan, co
     // An entry is seen up to the next one; the quarter is for units that round their interpolation weights.
     const double reach = 1.25 * coarsestEntry(scene, plan, facts);
     std::vector<ValueRange> wide;
-    for (const auto& range : shown) {
-        const ValueRange wider{range.lo - reach, range.hi + reach};
-        if (!wide.empty() && wider.lo <= wide.back().hi)
-            wide.back().hi = std::max(wide.back().hi, wider.hi);
-        else
-            wide.push_back(wider);
-    }
+    for (const auto& range : shown) append(wide, {range.lo - reach, range.hi + reach});
     return wide;
 }
 

@@ -62,8 +62,7 @@ void choose(Plan& plan, Skipping skipping, const std::vector<LeftOutRow>& leftOu
 }
 
 void addLeapField(Plan& plan, glm::ivec3 blocks) {
-    const auto count = static_cast<std::uint64_t>(blocks.x) * static_cast<std::uint64_t>(blocks.y) *
-                       static_cast<std::uint64_t>(blocks.z);
+    const std::uint64_t count = cellCount(blocks);
     plan.resources.push_back(
         {kLeapField, "texture 3D R8UI", count,
          fmt::format("how far the next of {} x {} x {} blocks is that can show; their value ranges take {} "
@@ -73,10 +72,6 @@ void addLeapField(Plan& plan, glm::ivec3 blocks) {
 }
 
 }  // namespace
-
-glm::ivec3 blockCount(glm::ivec3 voxels) {
-    return (voxels + (kBlockEdge - 1)) / kBlockEdge;
-}
 
 void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts, const DeviceLimits& limits) {
     const auto none = [&](const std::string& reason) {

@@ -4,15 +4,10 @@
 
 #include <cstdint>
 
+#include "renderer/plan/blocks.h"
 #include "renderer/plan/plan.h"
 
 namespace pellucid::renderer {
-
-/// Voxels along each edge of a block whose value range is known.
-inline constexpr int kBlockEdge = 4;
-
-/// Number of blocks along each axis; the last ones may be cut.
-[[nodiscard]] glm::ivec3 blockCount(glm::ivec3 voxels);
 
 /// What is known of the blocks once their values have been looked at.
 struct OccupancyFacts {

@@ -237,13 +237,6 @@ StageRow traverseRow(const Features& features) {
     return {"traverse", "midpoints", "equal segments, each with its own length"};
 }
 
-/// True when the integrate stage classifies single values too.
-bool needsClassify(const Features& features) {
-    return features.integrator != Integrator::Preintegrated2D &&
-           features.integrator != Integrator::Preintegrated3D &&
-           features.integrator != Integrator::Importance;
-}
-
 }  // namespace
 
 StageChoice chooseStages(const Features& features) {
@@ -264,7 +257,7 @@ StageChoice chooseStages(const Features& features) {
     } else if (features.classification == Classification::Pre) {
         rows.push_back(
             {"classify", "pre_classified", "the transfer function is applied to voxels, for comparison"});
-    } else if (needsClassify(features)) {
+    } else if (!usesPreintegration(features.integrator)) {
         rows.push_back({"classify", "tf1d", "colours and extinction come from the transfer function"});
     } else {
         leftOut.push_back({"classify", "the pre-integration table holds what the function would say"});

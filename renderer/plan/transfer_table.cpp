@@ -89,9 +89,7 @@ TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, d
 TransferFunction1D inCompositingSpace(const TransferFunction1D& function, CompositingSpace space) {
     TransferFunction1D converted = function;
     if (space == CompositingSpace::Display) return converted;
-    for (auto& point : converted.points)
-        for (int channel = 0; channel < 3; ++channel)
-            point.color[channel] = linearFromDisplay(point.color[channel]);
+    for (auto& point : converted.points) point.color = linearFromDisplay(point.color);
     return converted;
 }
 

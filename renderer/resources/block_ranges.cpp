@@ -14,11 +14,6 @@ namespace pellucid::renderer {
 
 namespace {
 
-std::size_t product(glm::ivec3 size) {
-    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-           static_cast<std::size_t>(size.z);
-}
-
 /// Stored values of one component, with what is not finite replaced by the smallest finite value.
 template <class T>
 class Voxels {
@@ -119,8 +114,8 @@ BlockRanges blockRanges(const Volume& volume, int component, int padding, const 
     const glm::ivec3 size = volume.grid().size;
     BlockRanges ranges;
     ranges.blocks = blockCount(size);
-    ranges.lo.resize(product(ranges.blocks));
-    ranges.hi.resize(product(ranges.blocks));
+    ranges.lo.resize(cellCount(ranges.blocks));
+    ranges.hi.resize(cellCount(ranges.blocks));
     const Quanta quanta{{storedFromTexel(volume.type(), volume.storedRange(component))}};
     const auto rows =
         static_cast<std::uint64_t>(ranges.blocks.y) * static_cast<std::uint64_t>(ranges.blocks.z);

@@ -125,10 +125,7 @@ Seen classify(const BlockRanges& ranges, const ShownQuanta& shown, double oversh
 }  // namespace
 
 OccupancyFacts Occupancy::facts() const {
-    const glm::ivec3 box = boxHi - boxLo;
-    return {distance.size(), occupied,
-            static_cast<std::uint64_t>(box.x) * static_cast<std::uint64_t>(box.y) *
-                static_cast<std::uint64_t>(box.z)};
+    return {distance.size(), occupied, cellCount(boxHi - boxLo)};
 }
 
 ShownQuanta::ShownQuanta(std::span<const ValueRange> shownTexels)

@@ -29,6 +29,22 @@ bool toFront(std::list<T>& entries, const Matches& matches) {
     return true;
 }
 
+/// What was made of this component of the volume and matches, moved to the front; null when there is none.
+/// Drops what belongs to volumes that are gone.
+template <class Entries, class Matches>
+auto* ofVolume(Entries& entries, const VolumePtr& volume, int component, const Matches& matches) {
+    entries.remove_if([](const auto& entry) { return entry.volume.expired(); });
+    const bool known = toFront(entries, [&](const auto& entry) {
+        return entry.component == component && entry.volume.lock() == volume && matches(entry.made);
+    });
+    return known ? &entries.front().made : nullptr;
+}
+
+template <class Entries>
+auto* ofVolume(Entries& entries, const VolumePtr& volume, int component) {
+    return ofVolume(entries, volume, component, [](const auto&) { return true; });
+}
+
 bool isFrom(const TableLayout& a, const TransferTexture& table) {
     return a.lo == table.layout.lo && a.hi == table.layout.hi && a.size == table.layout.size;
 }
@@ -65,14 +81,12 @@ auto& findOrMake(Entries& entries, const TransferFunction1D& function, Compositi
 
 Result<const VolumeTexture*> ResourceStore::volume(const VolumePtr& volume, int component,
                                                    const Progress& progress) {
-    m_volumes.remove_if([](const VolumeEntry& entry) { return entry.volume.expired(); });
-    for (const auto& entry : m_volumes)
-        if (entry.component == component && entry.volume.lock() == volume) return &entry.texture;
+    if (const auto* known = ofVolume(m_volumes, volume, component)) return known;
     auto uploaded = uploadVolume(*volume, component, progress);
     if (!uploaded) return tl::unexpected(uploaded.error());
     ++counts.volumeUploads;
     m_volumes.push_front({volume, component, std::move(*uploaded)});
-    return &m_volumes.front().texture;
+    return &m_volumes.front().made;
 }
 
 const TransferTexture& ResourceStore::table(const TransferFunction1D& function, CompositingSpace space,
@@ -101,28 +115,25 @@ const IntegralTexture& ResourceStore::integrals(const TransferFunction1D& functi
 
 Result<const BlockRanges*> ResourceStore::ranges(const VolumePtr& volume, int component, int voxels,
                                                  const Progress& progress) {
-    m_ranges.remove_if([](const RangesEntry& entry) { return entry.volume.expired(); });
-    for (const auto& entry : m_ranges)
-        if (entry.component == component && entry.voxels == voxels && entry.volume.lock() == volume)
-            return &entry.ranges;
+    const auto* known = ofVolume(m_ranges, volume, component,
+                                 [&](const PaddedRanges& padded) { return padded.voxels == voxels; });
+    if (known != nullptr) return &known->ranges;
     auto found = blockRanges(*volume, component, voxels, progress);
     if (found.lo.empty()) return fail(ErrorCode::Cancelled, "the search for empty space was cancelled");
     ++counts.blockRanges;
-    m_ranges.push_front({volume, component, voxels, std::move(found)});
-    return &m_ranges.front().ranges;
+    m_ranges.push_front({volume, component, {voxels, std::move(found)}});
+    return &m_ranges.front().made.ranges;
 }
 
 Result<ResourceStore::Leaps*> ResourceStore::leaps(const VolumePtr& volume, int component, Filter filter,
                                                    const VolumeTexture& texture,
                                                    const std::vector<ValueRange>& shown,
                                                    const Progress& progress) {
-    m_leaps.remove_if([](const LeapsEntry& entry) { return entry.volume.expired(); });
     const FilterReach reach = reachOf(filter);
-    const bool known = toFront(m_leaps, [&](const LeapsEntry& entry) {
-        return entry.component == component && entry.reach == reach && entry.volume.lock() == volume &&
-               entry.shown == shown;
+    auto* known = ofVolume(m_leaps, volume, component, [&](const ShownLeaps& entry) {
+        return entry.reach == reach && entry.shown == shown;
     });
-    if (known) return &m_leaps.front().leaps;
+    if (known != nullptr) return &known->leaps;
     auto blocks = ranges(volume, component, reach.voxels, progress);
     if (!blocks) return tl::unexpected(blocks.error());
     std::vector<ValueRange> texels;
@@ -132,13 +143,10 @@ Result<ResourceStore::Leaps*> ResourceStore::leaps(const VolumePtr& volume, int 
         texels.push_back({std::min(a, b), std::max(a, b)});
     }
     ++counts.occupancies;
-    m_leaps.push_front({volume,
-                        component,
-                        reach,
-                        shown,
-                        {occupancyOf(**blocks, ShownQuanta(texels), reach.overshoot), GlTexture()}});
+    Leaps leaps{occupancyOf(**blocks, ShownQuanta(texels), reach.overshoot), GlTexture()};
+    m_leaps.push_front({volume, component, {reach, shown, std::move(leaps)}});
     if (m_leaps.size() > kKeptLeaps) m_leaps.pop_back();
-    return &m_leaps.front().leaps;
+    return &m_leaps.front().made.leaps;
 }
 
 const GlTexture& ResourceStore::leapField(Leaps& leaps) {
@@ -148,9 +156,7 @@ const GlTexture& ResourceStore::leapField(Leaps& leaps) {
 
 Result<const GlTexture*> ResourceStore::importance(const VolumePtr& volume, int component,
                                                    const Progress& progress) {
-    m_importances.remove_if([](const ImportanceEntry& entry) { return entry.volume.expired(); });
-    for (const auto& entry : m_importances)
-        if (entry.component == component && entry.volume.lock() == volume) return &entry.texture;
+    if (const auto* known = ofVolume(m_importances, volume, component)) return known;
     auto grid = importanceOf(*volume, component, progress);
     if (!grid) return tl::unexpected(grid.error());
     ++counts.importanceVolumes;
@@ -159,7 +165,7 @@ Result<const GlTexture*> ResourceStore::importance(const VolumePtr& volume, int 
     glTextureSubImage3D(texture.id(), 0, 0, 0, 0, grid->size.x, grid->size.y, grid->size.z, GL_RG, GL_FLOAT,
                         grid->bends.data());
     m_importances.push_front({volume, component, std::move(texture)});
-    return &m_importances.front().texture;
+    return &m_importances.front().made;
 }
 
 const GlTexture& ResourceStore::blueNoise() {

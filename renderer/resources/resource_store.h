@@ -63,15 +63,12 @@ public:
     WorkCounts counts;
 
 private:
-    struct VolumeEntry {
+    /// Something made of one component of a volume, which goes with it.
+    template <class Made>
+    struct OfVolume {
         std::weak_ptr<const Volume> volume;
         int component = 0;
-        VolumeTexture texture;
-    };
-    struct ImportanceEntry {
-        std::weak_ptr<const Volume> volume;
-        int component = 0;
-        GlTexture texture;
+        Made made;
     };
     /// A buffer, made anew when what it is to hold changes.
     class UniformBlock {
@@ -90,31 +87,27 @@ private:
         Table table;
     };
     /// Value ranges of a volume's blocks, as filters that read so many voxels need them.
-    struct RangesEntry {
-        std::weak_ptr<const Volume> volume;
-        int component = 0;
+    struct PaddedRanges {
         int voxels = 0;
         BlockRanges ranges;
     };
-    struct LeapsEntry {
-        std::weak_ptr<const Volume> volume;
-        int component = 0;
+    struct ShownLeaps {
         FilterReach reach;
         std::vector<ValueRange> shown;
         Leaps leaps;
     };
     [[nodiscard]] Result<const BlockRanges*> ranges(const VolumePtr& volume, int component, int voxels,
                                                     const Progress& progress);
-    std::list<VolumeEntry> m_volumes;
-    std::list<RangesEntry> m_ranges;
-    std::list<LeapsEntry> m_leaps;  // most recently used first
+    std::list<OfVolume<VolumeTexture>> m_volumes;  // this and the next three most recently used first
+    std::list<OfVolume<GlTexture>> m_importances;
+    std::list<OfVolume<PaddedRanges>> m_ranges;
+    std::list<OfVolume<ShownLeaps>> m_leaps;
     std::list<FunctionTable<PreintegrationTexture>> m_preintegrations;
     std::list<FunctionTable<IntegralTexture>> m_integrals;
     GlTexture m_blueNoise;
     GlTexture m_filterWeights;
     std::list<FunctionTable<TransferTexture>> m_tables;  // most recently used first
     std::list<Target> m_targets;                         // most recently used first
-    std::list<ImportanceEntry> m_importances;
     UniformBlock m_lights;
     UniformBlock m_surfaces;
 };

@@ -92,7 +92,8 @@ TEST_F(RenderServiceTest, AnErrorThatCannotBeMeasuredLeavesThePicture) {
     scene.quality.stepVoxels = 1.0;
     while (renderer.render(scene, scan.volumes) && scene.quality.stepVoxels > 1e-9)
         scene.quality.stepVoxels /= 2.0;
-    if (scene.quality.stepVoxels <= 1e-9) GTEST_SKIP() << "this device draws every step";
+    // However many turns a device's loops may take, the plan ends at 16 million samples a ray.
+    ASSERT_GT(scene.quality.stepVoxels, 1e-9);
     scene.quality.stepVoxels *= 2.0;
     service.request({3, scene, scan.volumes, RenderService::Priority::Full, true});
     ASSERT_TRUE(waitFor([&] { return !replies.empty() && replies.back().isFinal; }));
