@@ -95,6 +95,7 @@ struct ReportScope {
     int warmFrames = 5;
     double referenceBound = 1e-5;
     int referenceHalvings = 3;
+    bool jitter = true;   ///< With and without jittered starts of rays.
     bool crossed = true;  ///< Every combination; else other filters and formats with one integrator only.
     bool peers = false;
     std::optional<double> budgetSeconds;  ///< Nothing new is begun after this time.

@@ -87,6 +87,7 @@ void addSteps(SettingList& list, ReportSetting setting, const ReportScope& scope
 void addPeers(std::vector<ReportSetting>& settings, const ReportScope& scope) {
     for (const auto& [renderer, jitter] :
          {std::pair("vtk-gpu", false), std::pair("vtk-gpu", true), std::pair("vtk-fixed-point", false)}) {
+        if (jitter && !scope.jitter) continue;
         for (const double step : scope.steps) {
             ReportSetting setting;
             setting.renderer = renderer;
@@ -146,7 +147,7 @@ std::vector<ReportSetting> reportSettings(const Scene& scene, const ReportScope&
     constexpr Accumulation kFloat = Accumulation::Float32;
     const Filter own = scope.filters.front();
     for (const Integrator integrator : scope.integrators) add(own, kFloat, integrator, false);
-    if (usesTransferFunction(scene.mode)) {
+    if (scene.mode != Mode::Slice) {  // which has no step
         ReportSetting automatic;
         automatic.filter = own;
         automatic.automatic = true;
@@ -156,7 +157,7 @@ std::vector<ReportSetting> reportSettings(const Scene& scene, const ReportScope&
     if (scope.peers) addPeers(list.settings, scope);
     for (const Accumulation accumulation : scope.accumulations)
         add(own, accumulation, Integrator::Exponential, false);
-    add(own, kFloat, Integrator::Exponential, true);
+    if (scope.jitter) add(own, kFloat, Integrator::Exponential, true);
     for (const Filter filter : scope.filters) add(filter, kFloat, Integrator::Exponential, false);
     if (scope.crossed) {
         for (const Filter filter : scope.filters)

@@ -172,7 +172,9 @@ private:
         return m_store.add(referenceKey(kind), facts);
     }
 
-    Result<Drawn> drawOwn(const Scene& scene, Measurement& m) {
+    /// Where the renderer chooses the settings, the first frame chooses and verifies them, and the warm ones
+    /// are drawn with what was chosen, as in a window.
+    Result<Drawn> drawOwn(Scene scene, Measurement& m) {
         Drawn drawn;
         renderer::RenderOptions options;
         options.progress = progress();
@@ -187,6 +189,7 @@ private:
             if (frame == 0) {
                 m.firstMs = ms;
                 m.bytes = result->plan.totalBytes;
+                if (result->chosen) scene.quality = *result->chosen;
             } else {
                 drawn.wall.push_back(ms);
                 drawn.gpu.push_back(result->cost.gpuMs);

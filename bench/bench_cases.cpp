@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/bench_cases.h"
 
+#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 
@@ -69,15 +70,89 @@ Scene sceneOf(const Data& data, Mode mode, bool lit, Projection projection) {
     // No highlight: VTK's is Phong's, ours Blinn's, and the pictures are compared.
     scene.material = {0.2, 0.8, 0.0, 10.0};
     scene.picture.size = {512, 512};
-    scene.camera.projection = projection;
-    const glm::dvec3 forward = glm::normalize(glm::dvec3(0.4, 1.0, -0.3));
-    // The volume's sphere fills the picture: 3.864 radii away at 30 degrees.
-    scene.camera.pose = CameraPose{
-        centreMm(grid) - 3.864 * radiusMm(grid) * forward, centreMm(grid), {0, 0, 1}, 2.0 * radiusMm(grid)};
+    setView(scene, grid, projection);
     return completed(scene, {data.volume});
 }
 
+/// Unlit and lit where the mode has light, in both projections.
+void addErrorCases(std::vector<BenchCase>& cases, const std::string& name, const VolumePtr& volume,
+                   const std::optional<TransferFunction1D>& function, Mode mode, int size) {
+    for (const Projection projection : {Projection::Orthographic, Projection::Perspective})
+        for (const bool lit : {false, true}) {
+            if (lit && !usesLights(mode)) continue;
+            Scene scene;
+            scene.volumes.emplace_back();
+            scene.volumes.front().transferFunction = function;
+            scene.mode = mode;
+            scene.lights = lit ? std::vector<Light>{Light{}} : std::vector<Light>{};
+            scene.material = {0.2, 0.8, 0.0, 10.0};  // No highlight, as above.
+            scene.picture.size = {size, size};
+            setView(scene, volume->grid(), projection);
+            cases.push_back({name, lit ? "lit" : std::string(pellucid::name(mode)),
+                             std::string(pellucid::name(projection)), completed(scene, {volume}), volume});
+        }
+}
+
 }  // namespace
+
+VolumePtr fog(int n) {
+    return accuracy::sampledVolume(axisAlignedGrid(glm::ivec3(n)), VoxelType::UInt16, [n](glm::ivec3 i) {
+        const glm::dvec3 p = 6.0 * glm::dvec3(i) / static_cast<double>(n);
+        return 32768.0 + 14000.0 * (std::sin(p.x) * std::cos(1.3 * p.y) + std::sin(0.7 * p.z + p.x));
+    });
+}
+
+TransferFunction1D fogFunction() {
+    return {"fog", "", {{0.0, {0.3, 0.5, 0.9}, 0.001}, {65535.0, {1.0, 0.9, 0.6}, 0.03}}};
+}
+
+TransferFunction1D thinShells() {
+    TransferFunction1D function{"shells", "", {}};
+    for (const double value : {0.3, 0.5, 0.7}) {
+        const glm::dvec3 color(value, 1.0 - value, 0.6);
+        function.points.push_back({value - 0.02, color, 0.0});
+        function.points.push_back({value, color, 1.0});
+        function.points.push_back({value + 0.02, color, 0.0});
+    }
+    return function;
+}
+
+TransferFunction1D boneFunction() {
+    return {"bone",
+            "HU",
+            {{150.0, {0.8, 0.4, 0.3}, 0.0}, {300.0, {1.0, 0.9, 0.7}, 0.3}, {1200.0, {1, 1, 1}, 2.0}}};
+}
+
+void setView(Scene& scene, const Grid& grid, Projection projection) {
+    scene.camera.projection = projection;
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(0.4, 1.0, -0.3));
+    // 3.864 radii away at 30 degrees.
+    scene.camera.pose = CameraPose{
+        centreMm(grid) - 3.864 * radiusMm(grid) * forward, centreMm(grid), {0, 0, 1}, 2.0 * radiusMm(grid)};
+}
+
+Result<std::vector<BenchCase>> errorCases(const std::vector<std::string>& scans, int size) {
+    std::vector<BenchCase> cases;
+    const VolumePtr shells = accuracy::ctLikeShells(256);
+    addErrorCases(cases, "Marschner-Lobb 128^3", accuracy::marschnerLobb(128), signalFunction(),
+                  Mode::Composite, size);
+    addErrorCases(cases, "thin shells 128^3", accuracy::marschnerLobb(128), thinShells(), Mode::Composite,
+                  size);
+    addErrorCases(cases, "fog 256^3", fog(256), fogFunction(), Mode::Composite, size);
+    addErrorCases(cases, "CT shells 256^3", shells, boneFunction(), Mode::Composite, size);
+    addErrorCases(cases, "CT shells 256^3", shells, std::nullopt, Mode::Mip, size);
+    for (const std::string& scan : scans) {
+        const auto loaded = io::loadVolume({scan});
+        if (!loaded) return tl::unexpected<Error>(loaded.error());
+        const VolumePtr volume = upright16(**loaded);
+        const glm::ivec3 n = volume->grid().size;
+        const std::string name = fmt::format("{} {}x{}x{}", (*loaded)->info().name, n.x, n.y, n.z);
+        // The look of the scan itself, which knows its modality.
+        const auto function = completed({}, {*loaded}).volumes.front().transferFunction;
+        addErrorCases(cases, name, volume, function, Mode::Composite, size);
+    }
+    return cases;
+}
 
 Result<std::vector<BenchCase>> benchCases(const std::string& path) {
     std::vector<Data> data;

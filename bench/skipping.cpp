@@ -9,12 +9,11 @@
 // --benchmark_report_aggregates_only=true, processor time of all cores ("CPU").
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
 #include <memory>
 
 #include "accuracy/synthetic.h"
+#include "bench/bench_cases.h"
 #include "io/load.h"
 #include "renderer/renderer.h"
 #include "renderer/resources/occupancy.h"
@@ -28,31 +27,6 @@ struct SkipCase {
     Scene scene;
 };
 
-/// A smooth field without empty space.
-VolumePtr fog(int n) {
-    return accuracy::sampledVolume(axisAlignedGrid(glm::ivec3(n)), VoxelType::UInt16, [n](glm::ivec3 i) {
-        const glm::dvec3 p = 6.0 * glm::dvec3(i) / static_cast<double>(n);
-        return 32768.0 + 14000.0 * (std::sin(p.x) * std::cos(1.3 * p.y) + std::sin(0.7 * p.z + p.x));
-    });
-}
-
-TransferFunction1D thinShells() {
-    TransferFunction1D function{"shells", "", {}};
-    for (const double value : {0.3, 0.5, 0.7}) {
-        const glm::dvec3 color(value, 1.0 - value, 0.6);
-        function.points.push_back({value - 0.02, color, 0.0});
-        function.points.push_back({value, color, 1.0});
-        function.points.push_back({value + 0.02, color, 0.0});
-    }
-    return function;
-}
-
-TransferFunction1D boneFunction() {
-    return {"bone",
-            "HU",
-            {{150.0, {0.8, 0.4, 0.3}, 0.0}, {300.0, {1.0, 0.9, 0.7}, 0.3}, {1200.0, {1, 1, 1}, 2.0}}};
-}
-
 void add(std::vector<SkipCase>& cases, const std::string& name, const VolumePtr& volume,
          const std::optional<TransferFunction1D>& function, Mode mode = Mode::Composite) {
     for (const Projection projection : {Projection::Orthographic, Projection::Perspective})
@@ -64,13 +38,7 @@ void add(std::vector<SkipCase>& cases, const std::string& name, const VolumePtr&
             scene.mode = mode;
             scene.lights = lit ? std::vector<Light>{Light{}} : std::vector<Light>{};
             scene.picture.size = {512, 512};
-            scene.camera.projection = projection;
-            const Grid& grid = volume->grid();
-            const glm::dvec3 forward = glm::normalize(glm::dvec3(0.4, 1.0, -0.3));
-            scene.camera.pose = CameraPose{centreMm(grid) - 3.864 * radiusMm(grid) * forward,
-                                           centreMm(grid),
-                                           {0, 0, 1},
-                                           2.0 * radiusMm(grid)};
+            setView(scene, volume->grid(), projection);
             cases.push_back({name + (lit ? "/lit" : "/unlit") +
                                  (projection == Projection::Orthographic ? "/orthographic" : "/perspective"),
                              volume, completed(scene, {volume})});
@@ -81,8 +49,7 @@ std::vector<SkipCase> skipCases(const std::string& path) {
     std::vector<SkipCase> cases;
     const VolumePtr shells = accuracy::ctLikeShells(256);
     add(cases, "marschner-lobb-128", accuracy::marschnerLobb(128), thinShells());
-    add(cases, "fog-256", fog(256),
-        TransferFunction1D{"fog", "", {{0.0, {0.3, 0.5, 0.9}, 0.001}, {65535.0, {1.0, 0.9, 0.6}, 0.03}}});
+    add(cases, "fog-256", fog(256), fogFunction());
     add(cases, "ct-shells-256", shells, boneFunction());
     add(cases, "ct-shells-256-mip", shells, std::nullopt, Mode::Mip);
     if (path.empty()) return cases;
