@@ -176,6 +176,7 @@ Scene sceneWith(const Scene& scene, const ReportSetting& setting, glm::ivec2 siz
     result.quality.integrator = setting.integrator;
     result.quality.accumulation = setting.accumulation;
     result.quality.jitter = setting.jitter;
+    result.quality.interpolationGreyLevels.reset();
     result.quality.stepVoxels = setting.stepVoxels;
     result.quality.stepMm.reset();
     result.quality.toleranceGreyLevels = setting.tolerance;

@@ -13,7 +13,7 @@ namespace {
 // Pictures tried have about this many pixels: enough for a root mean square within a few percent, and a
 // fiftieth of a screen.
 constexpr double kTriedPixels = 16384.0;
-constexpr double kLongestStep = 8.0;           // voxels
+constexpr double kLongestStep = 32.0;          // voxels
 constexpr double kShortestStep = 1.0 / 128.0;  // voxels
 /// The largest estimate, in tolerances, that is taken to meet it. Estimates are within a factor of 2 of the
 /// error, those of a root mean square within 1.3 (docs/verification.md); what is tried is smaller than the
@@ -25,6 +25,19 @@ double margin(ErrorNorm norm) {
 /// What is aimed at when settings are chosen, so that their estimates stay below the margin.
 double aim(const Quality& quality) {
     return 0.9 * margin(quality.toleranceNorm) * toleranceOf(quality);
+}
+
+/// Parts of the aim that steps along the rays and interpolation between rays may use. Both errors together
+/// are about the root of their squares' sum; the largest ones may meet in one pixel.
+double stepShare(ErrorNorm norm) {
+    return norm == ErrorNorm::Max ? 0.6 : 0.8;
+}
+double interpolationShare(ErrorNorm norm) {
+    return norm == ErrorNorm::Max ? 0.4 : 0.6;
+}
+
+double stepAim(const Quality& quality) {
+    return stepShare(quality.toleranceNorm) * aim(quality);
 }
 
 struct Tried {
@@ -55,6 +68,7 @@ public:
         Quality& quality = m_scene.quality;
         quality.automatic = false;
         quality.stepMm.reset();
+        quality.interpolationGreyLevels.reset();
         quality.earlyTermination = std::min(0.1 * m_tolerance, 1.0 / 64.0);
     }
 
@@ -116,7 +130,7 @@ Result<std::optional<Candidate>> Search::tryIntegrator(Integrator integrator) {
         if (!drawn) return tl::unexpected(drawn.error());
         if (!*drawn) break;
         tries.push_back({step, (*drawn)->ms, m_truth.pixels.empty() ? 0.0 : errorOf((*drawn)->image)});
-        if (tries.back().error <= aim(quality)) break;
+        if (tries.back().error <= stepAim(quality)) break;
     }
     if (tries.empty()) return std::optional<Candidate>();
     return std::optional(between(quality, tries));
@@ -128,7 +142,7 @@ Candidate Search::between(const Quality& quality, const std::vector<Tried>& trie
     const Tried& fine = tries.back();
     Candidate candidate{quality, fine.ms, fine.error};
     candidate.quality.stepVoxels = fine.stepVoxels;
-    const double wantedError = aim(quality);
+    const double wantedError = stepAim(quality);
     if (tries.size() < 2 || fine.error > wantedError) return candidate;
     const Tried& coarse = tries[tries.size() - 2];
     const double least = 1e-9;
@@ -166,11 +180,17 @@ Result<Quality> chooseQuality(const Scene& scene, const DrawTimed& draw) {
     Search search(scene, draw);
     if (auto found = search.findTruth(); !found) return tl::unexpected(found.error());
     std::vector<Integrator> integrators{Integrator::Exponential};
-    if (usesIntegrator(scene.mode)) integrators.push_back(Integrator::IntegralFunctions);
+    // Those of higher order are cheaper where the field is smooth only, and there the running integrals are
+    // too; but they need fewer samples, which a device may limit.
+    if (usesIntegrator(scene.mode))
+        integrators.insert(integrators.end(),
+                           {Integrator::IntegralFunctions, Integrator::Simpson, Integrator::GaussLegendre});
+    constexpr std::size_t kUsual = 2;
     std::optional<Candidate> best;
     const double tolerance = toleranceOf(scene.quality);
-    for (const Integrator integrator : integrators) {
-        auto candidate = search.tryIntegrator(integrator);
+    for (std::size_t i = 0; i < integrators.size(); ++i) {
+        if (i >= kUsual && best && best->error <= tolerance) break;
+        auto candidate = search.tryIntegrator(integrators[i]);
         if (!candidate) return tl::unexpected(candidate.error());
         if (!*candidate) continue;
         // What meets the tolerance goes before what does not, then time counts, or error where neither does.
@@ -182,7 +202,25 @@ Result<Quality> chooseQuality(const Scene& scene, const DrawTimed& draw) {
     Quality stated = scene.quality;
     stated.automatic = false;
     // Without a step that can be drawn at all, drawing what is stated says why.
-    return best ? best->quality : stated;
+    if (!best) return stated;
+    const ErrorNorm norm = scene.quality.toleranceNorm;
+    best->quality.interpolationGreyLevels = 255.0 * interpolationShare(norm) * aim(scene.quality);
+    return best->quality;
+}
+
+std::optional<Quality> coarser(const Attempt& attempt) {
+    // Less is not worth another picture.
+    constexpr double kWorthwhile = 1.25;
+    const Quality& known = attempt.quality;
+    const double room = aim(known) / std::max(attempt.error, 1e-9);
+    if (room < kWorthwhile) return std::nullopt;
+    Quality longer = known;
+    // As for order 2; two pictures do not show more.
+    longer.stepVoxels *= std::min(std::sqrt(room), 2.0);
+    if (longer.interpolationGreyLevels)
+        *longer.interpolationGreyLevels =
+            std::min(*longer.interpolationGreyLevels * std::min(room, 2.0), 255.0 * aim(known));
+    return longer;
 }
 
 Quality refined(const std::vector<Attempt>& attempts) {
@@ -197,6 +235,9 @@ Quality refined(const std::vector<Attempt>& attempts) {
     }
     Quality finer = last.quality;
     finer.stepVoxels *= std::clamp(std::pow(aim(finer) / last.error, 1.0 / order), 1.0 / 16.0, 0.8);
+    // Which of the two it was is not known.
+    if (finer.interpolationGreyLevels)
+        *finer.interpolationGreyLevels *= std::clamp(aim(finer) / last.error, 0.25, 0.8);
     return finer;
 }
 

@@ -34,6 +34,10 @@ struct Attempt {
 /// proportional to it after only one. Precondition: at least one attempt.
 [[nodiscard]] Quality refined(const std::vector<Attempt>& attempts);
 
+/// Settings that use more of the tolerance than this attempt, which met it, did: a step up to twice as long,
+/// and interpolation between rays that may be wrong by up to twice as much. Nothing when too little is left.
+[[nodiscard]] std::optional<Quality> coarser(const Attempt& attempt);
+
 /// True when an error so estimated is below the tolerance, the uncertainty of estimates allowed for.
 [[nodiscard]] bool meetsTolerance(const Quality& quality, const ErrorEstimate& estimate);
 

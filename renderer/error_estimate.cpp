@@ -37,6 +37,7 @@ Scene comparison(const Scene& scene, const Plan& plan) {
     better.quality.earlyTermination = 0.0;
     better.quality.accumulation = Accumulation::Float32;
     better.quality.jitter = false;
+    better.quality.interpolationGreyLevels.reset();
     better.quality.toleranceGreyLevels = 0.125 * toleranceGreyLevels(scene.quality);
     better.quality.integrator = withoutTable(scene.quality.integrator);
     return better;

@@ -26,6 +26,7 @@ struct FrameCost {
     double wallMs = 0.0;     ///< From the call to the pixels, uploads and compilation included.
     double prepareMs = 0.0;  ///< The part of wallMs before the first tile: compile, upload, tables.
     int tiles = 0;
+    std::int64_t rays = 0;  ///< Traced; fewer than pixels where the others are interpolated.
     double longestTileMs = 0.0;
 };
 
@@ -35,7 +36,7 @@ struct Frame {
     FrameCost cost;
     std::optional<ErrorEstimate> error;  ///< When asked for.
     Plan plan;
-    std::optional<Quality> chosen;  ///< Where the scene's quality is automatic: what it was drawn with.
+    std::optional<Quality> chosen;  ///< Where the scene's quality is automatic: what was found for it.
     bool preview = false;  ///< Drawn with a quickly made table; the same scene drawn again has the exact one.
 };
 

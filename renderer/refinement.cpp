@@ -14,6 +14,7 @@ Quality withStepTimes(Quality quality, double times) {
     quality.stepVoxels *= times;
     if (quality.stepMm) *quality.stepMm *= times;
     quality.toleranceGreyLevels = times * toleranceGreyLevels(quality);
+    if (quality.interpolationGreyLevels) *quality.interpolationGreyLevels *= times;
     quality.integrator = withoutTable(quality.integrator);
     return quality;
 }
@@ -28,6 +29,7 @@ Quality statedQuality(const Quality& asked, const std::optional<Quality>& chosen
     stated.stepVoxels = chosen->stepVoxels;
     stated.stepMm = chosen->stepMm;
     stated.earlyTermination = chosen->earlyTermination;
+    stated.interpolationGreyLevels = chosen->interpolationGreyLevels;
     return stated;
 }
 

@@ -119,8 +119,13 @@ struct Renderer::State {
     /// Chooses the quality, draws, and chooses finer ones as long as the estimate is above the tolerance.
     Result<Frame> drawAutomatic(const Scene& scene, const std::vector<VolumePtr>& volumes,
                                 const RenderOptions& options);
-    /// Sees to it that `choice` is one for this scene and volume. Errors: those of drawStated.
-    Result<void> choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
+    /// Draws with more room used, as long as the error stays below the tolerance; `best` and `choice` are the
+    /// cheapest after it.
+    Result<void> relax(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                       const RenderOptions& options, Frame& best);
+    /// Sees to it that `choice` is one for this scene and volume; true when it is new. Errors: those of
+    /// drawStated.
+    Result<bool> choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
                         const RenderOptions& options);
     /// The settings to draw with after these attempts; nothing when the device allows no shorter step.
     std::optional<Quality> finer(const Scene& scene, const std::vector<VolumePtr>& volumes,
@@ -214,6 +219,9 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const V
     inputs.lightsBlock = plan.features.lit ? store.lights(lightBlock(scene, volume->grid())).id() : 0;
     inputs.interpolates = item.filter != Filter::Nearest;
     inputs.target = *target;
+    if (scene.quality.interpolationGreyLevels)
+        inputs.interpolation = *scene.quality.interpolationGreyLevels / 255.0;
+    inputs.norm = scene.quality.toleranceNorm;
     cost.prepareMs += msSince(start);
 
     // Remembered per sample of the longest ray, since steps and volumes differ from picture to picture.
@@ -270,13 +278,13 @@ Result<Frame> Renderer::State::drawStated(const Scene& scene, const std::vector<
     return frame;
 }
 
-Result<void> Renderer::State::choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
+Result<bool> Renderer::State::choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
                                      const RenderOptions& options) {
     Scene look = scene;
     look.camera = Camera{};
     look.picture = Picture{};
     if (choice && !volumes.empty() && choice->volume.lock() == volumes.front() && choice->look == look)
-        return {};
+        return false;
     if (auto plan = planFor(scene, volumes); !plan) return tl::unexpected(plan.error());
     const auto draw = [&](const Scene& probe) -> Result<TimedImage> {
         auto plan = planWithEstimate(probe, volumes);
@@ -289,6 +297,23 @@ Result<void> Renderer::State::choose(const Scene& scene, const std::vector<Volum
     auto quality = chooseQuality(scene, draw);
     if (!quality) return tl::unexpected(quality.error());
     choice = Choice{look, volumes.front(), *quality};
+    return true;
+}
+
+Result<void> Renderer::State::relax(const Scene& scene, const std::vector<VolumePtr>& volumes,
+                                    const RenderOptions& options, Frame& best) {
+    constexpr int kMostTries = 2;
+    Scene stated = scene;
+    for (int i = 0; i < kMostTries; ++i) {
+        const auto longer = coarser({choice->quality, errorIn(scene.quality.toleranceNorm, *best.error)});
+        if (!longer) break;
+        stated.quality = *longer;
+        auto frame = drawStated(stated, volumes, options);
+        if (!frame) return tl::unexpected(frame.error());
+        if (!meetsTolerance(scene.quality, *frame->error)) break;
+        choice->quality = *longer;
+        best = std::move(*frame);
+    }
     return {};
 }
 
@@ -307,7 +332,8 @@ Result<Frame> Renderer::State::drawAutomatic(const Scene& scene, const std::vect
                                              const RenderOptions& options) {
     constexpr std::size_t kMostAttempts = 8;
     const auto start = std::chrono::steady_clock::now();
-    if (auto chosen = choose(scene, volumes, options); !chosen) return tl::unexpected(chosen.error());
+    const auto isNew = choose(scene, volumes, options);
+    if (!isNew) return tl::unexpected(isNew.error());
     RenderOptions estimated = options;
     estimated.estimateError = true;
     // The largest error may be at any pixel.
@@ -316,7 +342,7 @@ Result<Frame> Renderer::State::drawAutomatic(const Scene& scene, const std::vect
     std::vector<Attempt> attempts;
     while (true) {
         stated.quality = choice->quality;
-        const double beforeMs = msSince(start);
+        double otherMs = msSince(start);
         auto frame = drawStated(stated, volumes, estimated);
         if (!frame) return frame;
         attempts.push_back({choice->quality, errorIn(scene.quality.toleranceNorm, *frame->error)});
@@ -327,8 +353,18 @@ Result<Frame> Renderer::State::drawAutomatic(const Scene& scene, const std::vect
             choice->quality = *next;
             continue;
         }
-        frame->cost.prepareMs += beforeMs;
-        frame->cost.wallMs += beforeMs;
+        if (*isNew && attempts.size() == 1 && meetsTolerance(scene.quality, *frame->error)) {
+            const auto drawn = std::chrono::steady_clock::now();
+            if (auto relaxed = relax(scene, volumes, estimated, *frame); !relaxed)
+                return tl::unexpected(relaxed.error());
+            otherMs += msSince(drawn);
+        }
+        // Where nearly every pixel has a ray, choosing them costs more than it saves.
+        const double pixels = static_cast<double>(scene.picture.size.x) * scene.picture.size.y;
+        if (static_cast<double>(frame->cost.rays) > 0.8 * pixels)
+            choice->quality.interpolationGreyLevels.reset();
+        frame->cost.prepareMs += otherMs;
+        frame->cost.wallMs += otherMs;
         frame->chosen = choice->quality;
         return frame;
     }

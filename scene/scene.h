@@ -122,6 +122,10 @@ struct Quality {
     /// Rays pass over blocks of voxels in which nothing can show. The picture is the same without; the switch
     /// is for comparison.
     bool skipEmpty = true;
+    /// Rays are traced at every fourth pixel, and in the tiles where interpolating the others would be wrong
+    /// by more than this at every second or every one; grey levels in toleranceNorm, > 0. Unset: a ray a
+    /// pixel. Pictures below 64 pixels have a ray a pixel in any case.
+    std::optional<double> interpolationGreyLevels;
     bool operator==(const Quality&) const = default;
 };
 

@@ -128,10 +128,10 @@ Camera readCamera(const json& value, const std::string& pointer, JsonComplaints&
 }
 
 Quality readQuality(const json& value, const std::string& pointer, JsonComplaints& complaints) {
-    const JsonObject object(
-        value, pointer, complaints,
-        {"stepVoxels", "stepMm", "earlyTermination", "integrator", "accumulation", "jitter",
-         "toleranceGreyLevels", "toleranceNorm", "automatic", "dither", "skipEmpty"});
+    const JsonObject object(value, pointer, complaints,
+                            {"stepVoxels", "stepMm", "earlyTermination", "integrator", "accumulation",
+                             "jitter", "toleranceGreyLevels", "toleranceNorm", "automatic", "dither",
+                             "skipEmpty", "interpolationGreyLevels"});
     Quality quality;
     // Who states an error and nothing else leaves the rest to the program.
     quality.automatic = object.find("toleranceGreyLevels") && !object.find("integrator") &&
@@ -147,6 +147,7 @@ Quality readQuality(const json& value, const std::string& pointer, JsonComplaint
     object.read("automatic", quality.automatic);
     object.read("dither", quality.dither);
     object.read("skipEmpty", quality.skipEmpty);
+    object.read("interpolationGreyLevels", quality.interpolationGreyLevels);
     return quality;
 }
 

@@ -187,6 +187,7 @@ Json write(const Quality& quality, bool full) {
                  quality.automatic || quality.toleranceGreyLevels ? !quality.automatic : ordinary.automatic);
     writer.plain("dither", quality.dither, ordinary.dither);
     writer.plain("skipEmpty", quality.skipEmpty, ordinary.skipEmpty);
+    writer.number("interpolationGreyLevels", quality.interpolationGreyLevels);
     return writer.take();
 }
 

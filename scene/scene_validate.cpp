@@ -111,6 +111,8 @@ Result<void> validate(const Scene& scene) {
     check.notNegative(scene.densityScale, "/densityScale");
     check.positive(scene.quality.stepVoxels, "/quality/stepVoxels");
     if (scene.quality.stepMm) check.positive(*scene.quality.stepMm, "/quality/stepMm");
+    if (scene.quality.interpolationGreyLevels)
+        check.positive(*scene.quality.interpolationGreyLevels, "/quality/interpolationGreyLevels");
     if (scene.quality.toleranceGreyLevels)
         check.positive(*scene.quality.toleranceGreyLevels, "/quality/toleranceGreyLevels");
     check.require(scene.quality.earlyTermination >= 0.0 && scene.quality.earlyTermination < 1.0,

@@ -97,11 +97,20 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
     glEnable(GL_SCISSOR_TEST);
 }
 
-double RaycastPass::drawTile(const Tile& tile, FrameCost& cost) {
+void RaycastPass::setPlace(const RaycastInputs& inputs, const Place& place) const {
+    const GLuint program = inputs.program->id();
+    glProgramUniform1f(program, inputs.program->location("targetStride"), static_cast<float>(place.stride));
+    glProgramUniform2f(program, inputs.program->location("targetOrigin"), place.origin.x, place.origin.y);
+}
+
+double RaycastPass::drawTiles(std::span<const Tile> tiles, FrameCost& cost) {
     const auto start = std::chrono::steady_clock::now();
-    glScissor(tile.origin.x, tile.origin.y, tile.size.x, tile.size.y);
     if (m_timer) glBeginQuery(GL_TIME_ELAPSED, m_timer.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    for (const Tile& tile : tiles) {
+        glScissor(tile.origin.x, tile.origin.y, tile.size.x, tile.size.y);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        cost.rays += static_cast<std::int64_t>(tile.size.x) * tile.size.y;
+    }
     if (m_timer) glEndQuery(GL_TIME_ELAPSED);
     // Waiting here is what lets the next tile be sized by what this one took, and a cancel be heard.
     glFinish();
@@ -114,26 +123,35 @@ double RaycastPass::drawTile(const Tile& tile, FrameCost& cost) {
     return ms;
 }
 
-Result<ImageF> RaycastPass::draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,
-                                 double& msPerPixel, FrameCost& cost) {
+Result<ImageF> RaycastPass::drawEveryPixel(const RaycastInputs& inputs, glm::ivec2 size,
+                                           const RenderOptions& options, TileBudget& budget,
+                                           FrameCost& cost) {
     ImageF image{size,
                  std::vector<glm::vec4>(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y))};
-    bind(inputs);
     const glm::ivec2 targetSize = inputs.target->size;
-    const GLint originLocation = inputs.program->location("targetOrigin");
-    TileBudget budget(options.tileTargetMs, msPerPixel);
     for (int fromBottom = 0; fromBottom < size.y; fromBottom += targetSize.y) {
         const glm::ivec2 band{size.x, std::min(targetSize.y, size.y - fromBottom)};
-        glProgramUniform2f(inputs.program->id(), originLocation, 0.0f, static_cast<float>(fromBottom));
+        setPlace(inputs, {1.0, {0.0f, static_cast<float>(fromBottom)}});
         for (TileCutter cutter(band); !cutter.done();) {
             const Tile tile = cutter.next(budget.wantedPixels());
             const double done = static_cast<double>(fromBottom + tile.origin.y) / size.y;
             if (!goOn(options.progress, done, "drawing"))
                 return fail(ErrorCode::Cancelled, "the drawing was cancelled");
-            budget.took(static_cast<double>(tile.size.x) * tile.size.y, drawTile(tile, cost));
+            budget.took(static_cast<double>(tile.size.x) * tile.size.y, drawTiles({&tile, 1}, cost));
         }
         readBand(inputs.target->color.id(), band, targetSize, fromBottom, image);
     }
+    return image;
+}
+
+Result<ImageF> RaycastPass::draw(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,
+                                 double& msPerPixel, FrameCost& cost) {
+    bind(inputs);
+    TileBudget budget(options.tileTargetMs, msPerPixel);
+    const bool sparse = inputs.interpolation && isSparse(size, inputs.target->size);
+    auto image = sparse ? drawSparsely(inputs, size, options, budget, cost)
+                        : drawEveryPixel(inputs, size, options, budget, cost);
+    if (!image) return image;
     msPerPixel = budget.msPerPixel();
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
         return fail(ErrorCode::Gpu, fmt::format("OpenGL error {:#x} while drawing", error));

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <span>
+
 #include "renderer/frame.h"
 #include "renderer/gpu/gl_program.h"
 #include "renderer/passes/raycast_uniforms.h"
+#include "renderer/passes/sparse_rays.h"
 #include "renderer/passes/tiles.h"
 #include "renderer/renderer.h"
 #include "renderer/resources/resource_store.h"
@@ -26,6 +30,10 @@ struct RaycastInputs {
     GLuint surfacesBlock = 0;  ///< 0: none.
     bool interpolates = true;  ///< The volume's sampler is linear.
     const ResourceStore::Target* target = nullptr;
+    /// Rays only where interpolation would be wrong by more than this, display units in the norm; unset: a
+    /// ray a pixel.
+    std::optional<double> interpolation;
+    ErrorNorm norm = ErrorNorm::Rmse;
 };
 
 /// Draws pictures tile by tile, so that no draw holds the device for long.
@@ -40,8 +48,24 @@ public:
                         double& msPerPixel, FrameCost& cost);
 
 private:
+    /// Where a picture's rays stand in the target: one every `stride` pixels, the target's lower left corner
+    /// at `origin`.
+    struct Place {
+        double stride = 1.0;
+        glm::vec2 origin{0.0f};
+    };
+
     void bind(const RaycastInputs& inputs) const;
-    double drawTile(const Tile& tile, FrameCost& cost);
+    void setPlace(const RaycastInputs& inputs, const Place& place) const;
+    /// Milliseconds for all of them.
+    double drawTiles(std::span<const Tile> tiles, FrameCost& cost);
+    Result<ImageF> drawEveryPixel(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,
+                                  TileBudget& budget, FrameCost& cost);
+    Result<ImageF> drawSparsely(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,
+                                TileBudget& budget, FrameCost& cost);
+    /// Draws `runs` of sites of the lattice and reads them into it.
+    Result<void> traceSites(const RaycastInputs& inputs, std::span<const Tile> runs, Lattice& lattice,
+                            const RenderOptions& options, TileBudget& budget, FrameCost& cost);
 
     GlVertexArray m_noVertices;
     GlSampler m_linear;

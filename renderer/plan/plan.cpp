@@ -213,9 +213,14 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     if (plan.features.earlyTermination) plan.earlyTerminationBound = scene.quality.earlyTermination;
 
     const auto target = targetSize(scene.picture.size);
-    plan.passes.push_back({"ray casting", fmt::format("{}x{} RGBA32F", target.x, target.y),
-                           static_cast<std::uint64_t>(target.x) * static_cast<std::uint64_t>(target.y) * 16,
-                           "accumulates in 32-bit float, drawn tile by tile"});
+    plan.passes.push_back(
+        {"ray casting", fmt::format("{}x{} RGBA32F", target.x, target.y),
+         static_cast<std::uint64_t>(target.x) * static_cast<std::uint64_t>(target.y) * 16,
+         scene.quality.interpolationGreyLevels
+             ? fmt::format("accumulates in 32-bit float; a ray every fourth pixel, more where "
+                           "interpolation would be wrong by {:g} grey levels",
+                           *scene.quality.interpolationGreyLevels)
+             : "accumulates in 32-bit float, drawn tile by tile"});
     plan.resources.push_back({"volume", fmt::format("texture 3D {}", textureFormatName(facts.type)),
                               textureBytes(facts),
                               fmt::format("{} x {} x {} voxels of {}", facts.grid.size.x, facts.grid.size.y,

@@ -112,7 +112,8 @@ const StageVariant& findVariant(std::string_view stage, std::string_view variant
 }
 
 std::span<const char* const> engineUniforms() {
-    static constexpr std::array names{"pictureSize", "targetOrigin", "textureFromRender", "background"};
+    static constexpr std::array names{"pictureSize", "targetStride", "targetOrigin", "textureFromRender",
+                                      "background"};
     return names;
 }
 

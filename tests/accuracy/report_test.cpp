@@ -127,7 +127,7 @@ TEST(ReportReference, IsThatOfTheSameFieldAndLight) {
 TEST(ReportPlan, LeavesOutWhatAProjectionDoesNotHave) {
     const Scene mip = compositeScene(Mode::Mip);
     const auto settings = reportSettings(mip, fullScope(mip));
-    EXPECT_EQ(settings.size(), 6u * 8 + 6);  // Steps and filters; and jitter.
+    EXPECT_EQ(settings.size(), 6u * 8 + 6 + 6);  // Steps and filters; jitter; tolerances.
     for (const ReportSetting& setting : settings) EXPECT_EQ(setting.integrator, Integrator::Exponential);
     const Scene slice = compositeScene(Mode::Slice);
     EXPECT_EQ(reportSettings(slice, fullScope(slice)).size(), 8u);

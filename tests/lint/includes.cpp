@@ -55,7 +55,7 @@ const std::vector<Foreign>& foreigners() {
          [](std::string_view header) { return header.starts_with("vtk"); },
          {"io/", "segmentation/", "accuracy/", "bench/", "tests/io/", "tests/accuracy/"}},
         {"DCMTK", [](std::string_view header) { return header.starts_with("dcmtk/"); }, {"io/", "tests/io/"}},
-        {"CLI11", [](std::string_view header) { return header.starts_with("CLI/"); }, {"app/cli/"}},
+        {"CLI11", [](std::string_view header) { return header.starts_with("CLI/"); }, {"app/cli/", "bench/"}},
     };
     return table;
 }

@@ -10,9 +10,15 @@ struct Ray {
 };
 
 uniform vec2 pictureSize;      // pixels of the whole picture
-uniform vec2 targetOrigin;     // lower left corner of this target within the picture, pixels
+uniform float targetStride;    // pixels of the picture from one of this target to the next
+uniform vec2 targetOrigin;     // where the target's lower left corner lies in the picture, pixels
 uniform mat4 textureFromRender;
 uniform vec3 background;       // in the compositing space; zero for a transparent picture
+
+// The place of this ray in the picture, pixels; the centre of the lowest left pixel is (0.5, 0.5).
+vec2 picturePlace() {
+    return gl_FragCoord.xy * targetStride + targetOrigin;
+}
 
 Ray ray;
 bool inVolume;  // the ray meets the volume, whether or not samples are taken
@@ -39,7 +45,7 @@ bool intersectVolume(out float tEnter, out float tExit) {
 layout(location = 0) out vec4 pixel;
 
 void main() {
-    vec2 uv = 2.0 * (gl_FragCoord.xy + targetOrigin) / pictureSize - 1.0;
+    vec2 uv = 2.0 * picturePlace() / pictureSize - 1.0;
     ray = makeRay(uv);
     ray.texOrigin = (textureFromRender * vec4(ray.origin, 1.0)).xyz;
     ray.texDirection = mat3(textureFromRender) * ray.direction;

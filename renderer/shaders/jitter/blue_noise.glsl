@@ -3,6 +3,6 @@
 uniform sampler2D blueNoise;   // 64 x 64, each of 4096 ranks once
 
 float rayOffset() {
-    ivec2 pixelPlace = ivec2(gl_FragCoord.xy + targetOrigin) & 63;
+    ivec2 pixelPlace = ivec2(floor(picturePlace())) & 63;
     return texelFetch(blueNoise, pixelPlace, 0).r;
 }
