@@ -22,12 +22,14 @@ constexpr double kHeightMm = 6.0;
 constexpr double kStepMm = kVerifyBoxMm.x / 1024.0;
 
 /// Catmull-Rom's two leading terms, h^3 f''' and h^4 f'''', part only on fine voxels; a slice is cheap and
-/// not integrated. So is the order 1 of Lanczos 3 on surfaces: with n voxels its two leading terms are as 1
-/// to
-/// -(8 / n)^2 (docs/verification.md), so they cancel at n = 8 and the second is 11 % at n = 24.
+/// not integrated. So are surfaces, where the error of the place and that of the normal add; and with n
+/// voxels the two leading terms of Lanczos 3 are as 1 to -(8 / n)^2 (docs/verification.md), so they cancel at
+/// n = 8 and the second is 11 % at n = 24.
+/// What nearest does to a surface depends on where voxel faces happen to lie: many sizes average that.
 std::vector<int> voxelsFor(Mode mode, Filter filter) {
     const bool surface = mode == Mode::FirstHit || mode == Mode::Isosurface;
-    const bool fine = mode == Mode::Slice || (surface && filter == Filter::Lanczos3);
+    if (surface && filter == Filter::Nearest) return {8, 12, 16, 24, 32, 48, 64};
+    const bool fine = surface || mode == Mode::Slice;
     return fine ? std::vector{24, 32, 48, 64} : std::vector{8, 12, 16, 24, 32};
 }
 
@@ -35,6 +37,10 @@ Scene sceneFor(Mode mode, Filter filter) {
     Scene scene = verifyScene(mode, filter, kPixels, kHeightMm);
     scene.quality.stepMm = kStepMm;
     scene.quality.integrator = Integrator::Simpson;  // where the mode has one
+    // The errors before and behind the middle of the bump have opposite signs and weights that depend on the
+    // density: Catmull-Rom's leading one changes its sign between densities of 1.5 and 3, and what is left
+    // near that has no clean order.
+    if (mode == Mode::Composite) scene.densityScale = 0.5;
     // Off the middle, where odd derivatives vanish.
     if (mode == Mode::Slice) {
         const glm::dvec3 aside(4.0, 3.0, -5.0);
@@ -150,10 +156,6 @@ OrderRow expectation(Mode mode, Filter filter) {
         row.claim = Claim::AtLeast;
         if (integrated) row.reason += "; errors of alternating sign partly cancel along a ray";
     }
-    if (mode == Mode::Composite && filter == Filter::CatmullRom) {
-        row.expected = 2.0;
-        row.reason = "below the 3 of the other modes: the cause is not established";
-    }
     if (filter == Filter::Lanczos3) {
         row.claim = Claim::AtLeast;
         row.expected = 1.0;
@@ -165,7 +167,6 @@ OrderRow expectation(Mode mode, Filter filter) {
         row.expected = 2.0;
         row.reason = "normals are central differences: order 2";
     }
-    if (surface || filter == Filter::Nearest || mode == Mode::Mip || mode == Mode::MinIp) row.tolerance = 0.3;
     return row;
 }
 
