@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -44,31 +45,8 @@ double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-double fetchesPerValue(Filter filter) {
-    switch (filter) {
-        case Filter::Nearest:
-        case Filter::Trilinear:
-            return 1.0;
-        case Filter::TricubicBSpline:
-        case Filter::TrilinearExact:
-            return 8.0;
-        case Filter::CatmullRom:
-        case Filter::TricubicBSplineDeBoor:
-            return 27.0;
-        case Filter::TricubicBSplineLut:
-            return 64.0;
-        case Filter::Lanczos3:
-            break;
-    }
-    return 216.0;
-}
-
-/// First guess of a sample's cost: slower than any device seen, so that the first tile is not too long for
-/// one.
-double guessedMsPerSample(const Features& features) {
-    constexpr double kMsPerFetch = 10e-6;
-    return kMsPerFetch * fetchesPerValue(features.filter) * (features.lit ? 7.0 : 1.0);
-}
+/// What a picture in passing may spend on gradients for those after it, which are drawn faster with them.
+constexpr double kFieldMsAFrame = 50.0;
 
 /// True when everything this scene's mode uses is set: finding defaults reads voxels, which an interactive
 /// frame must not pay for.
@@ -110,6 +88,9 @@ struct Renderer::State {
                           const RenderOptions& options);
     Result<ResourceStore::Leaps*> leapsFor(const Scene& scene, Plan& plan, const VolumePtr& volume,
                                            const VolumeTexture& texture, const Progress& progress);
+    /// Values and gradients, when the plan has them and they are there; else leaves them out of the plan.
+    Result<const FieldTexture*> fieldFor(Plan& plan, const VolumePtr& volume, int component,
+                                         const RenderOptions& options);
     /// `plan` learns what the volume's blocks say.
     Result<ImageF> drawOnce(const Scene& scene, Plan& plan, const VolumePtr& volume,
                             const RenderOptions& options, FrameCost& cost);
@@ -180,6 +161,22 @@ Result<ResourceStore::Leaps*> Renderer::State::leapsFor(const Scene& scene, Plan
     return leaps;
 }
 
+Result<const FieldTexture*> Renderer::State::fieldFor(Plan& plan, const VolumePtr& volume, int component,
+                                                      const RenderOptions& options) {
+    if (plan.features.gradients != GradientSource::Texture) return nullptr;
+    auto field = store.field(volume, component);
+    if (!field) {
+        dropGradientTexture(plan, field.error().text());
+        return nullptr;
+    }
+    const double budgetMs = options.allowPreview ? kFieldMsAFrame : std::numeric_limits<double>::infinity();
+    if (auto made = makeField(**field, *volume, component, budgetMs, options.progress); !made)
+        return tl::unexpected(made.error());
+    if ((*field)->isComplete()) return *field;
+    dropGradientTexture(plan, "it is being made, a part with every picture");
+    return nullptr;
+}
+
 Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const VolumePtr& volume,
                                          const RenderOptions& options, FrameCost& cost) {
     const auto start = std::chrono::steady_clock::now();
@@ -193,11 +190,14 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const V
         if (!made) return tl::unexpected(made.error());
         importance = *made;
     }
+    auto field = fieldFor(plan, volume, item.component, options);
+    if (!field) return tl::unexpected(field.error());
     auto leaps = leapsFor(scene, plan, volume, **texture, options.progress);
     if (!leaps) return tl::unexpected(leaps.error());
     auto program_ = program(plan);
     if (!program_) return tl::unexpected(program_.error());
     FrameTables tables = tablesFor(scene, plan, factsOf(*volume, item.component), options);
+    tables.field = *field;
     if (*leaps != nullptr) tables.occupancy = &(*leaps)->occupancy;
     const Uniforms uniforms = raycastUniforms(scene, plan, volume->grid(), **texture, tables, maxLoopTurns);
     auto target = store.target(targetSize(scene.picture.size));
@@ -212,6 +212,7 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const V
     inputs.blueNoise = plan.features.jitter ? store.blueNoise().id() : 0;
     inputs.filterWeights = item.filter == Filter::TricubicBSplineLut ? store.filterWeights().id() : 0;
     inputs.leapField = plan.features.skipping == Skipping::Leaps ? store.leapField(**leaps).id() : 0;
+    inputs.field = *field != nullptr ? (*field)->texture.id() : 0;
     inputs.importance = importance != nullptr ? importance->id() : 0;
     if (plan.features.surfaces > 0)
         inputs.surfacesBlock =

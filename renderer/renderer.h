@@ -35,8 +35,9 @@ struct WorkCounts {
     int programsCompiled = 0;  ///< From text.
     int programsFromDisk = 0;  ///< Driver binaries.
     int frames = 0;
-    int blockRanges = 0;  ///< Of a volume's blocks.
-    int occupancies = 0;  ///< Of the blocks under a transfer function.
+    int blockRanges = 0;    ///< Of a volume's blocks.
+    int occupancies = 0;    ///< Of the blocks under a transfer function.
+    int fieldTextures = 0;  ///< Of values and gradients.
     bool operator==(const WorkCounts&) const = default;
 };
 

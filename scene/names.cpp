@@ -66,6 +66,14 @@ std::span<const EnumName<Filter>> enumNames<Filter>() {
 }
 
 template <>
+std::span<const EnumName<Gradients>> enumNames<Gradients>() {
+    using enum Gradients;
+    static constexpr std::array<EnumName<Gradients>, 3> kNames{
+        {{Auto, "auto"}, {OnTheFly, "on-the-fly"}, {Texture, "texture"}}};
+    return kNames;
+}
+
+template <>
 std::span<const EnumName<Integrator>> enumNames<Integrator>() {
     using enum Integrator;
     static constexpr std::array<EnumName<Integrator>, 10> kNames{{{Riemann, "riemann"},

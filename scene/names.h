@@ -15,6 +15,7 @@ enum class Classification;
 enum class CompositingSpace;
 enum class ErrorNorm;
 enum class Filter;
+enum class Gradients;
 enum class Integrator;
 enum class LightKind;
 enum class Mode;
@@ -60,6 +61,8 @@ template <>
 std::span<const EnumName<ErrorNorm>> enumNames<ErrorNorm>();
 template <>
 std::span<const EnumName<Filter>> enumNames<Filter>();
+template <>
+std::span<const EnumName<Gradients>> enumNames<Gradients>();
 template <>
 std::span<const EnumName<Integrator>> enumNames<Integrator>();
 template <>

@@ -76,6 +76,14 @@ enum class ErrorNorm { Rmse, Max };
 /// media stall.
 enum class Accumulation { Float32, Half, EightBit };
 
+/// Where the gradient of a lit sample comes from: six values around it, or a texture of differences made
+/// once.
+enum class Gradients {
+    Auto,  ///< The texture where it is as exact, many samples of a ray are lit and memory allows.
+    OnTheFly,
+    Texture
+};
+
 /// One of several surfaces of equal value.
 struct SurfaceLayer {
     double value = 0.0;     ///< Physical value.
@@ -126,6 +134,7 @@ struct Quality {
     /// by more than this at every second or every one; grey levels in toleranceNorm, > 0. Unset: a ray a
     /// pixel. Pictures below 64 pixels have a ray a pixel in any case.
     std::optional<double> interpolationGreyLevels;
+    Gradients gradients = Gradients::Auto;
     bool operator==(const Quality&) const = default;
 };
 

@@ -131,7 +131,7 @@ Quality readQuality(const json& value, const std::string& pointer, JsonComplaint
     const JsonObject object(value, pointer, complaints,
                             {"stepVoxels", "stepMm", "earlyTermination", "integrator", "accumulation",
                              "jitter", "toleranceGreyLevels", "toleranceNorm", "automatic", "dither",
-                             "skipEmpty", "interpolationGreyLevels"});
+                             "skipEmpty", "interpolationGreyLevels", "gradients"});
     Quality quality;
     // Who states an error and nothing else leaves the rest to the program.
     quality.automatic = object.find("toleranceGreyLevels") && !object.find("integrator") &&
@@ -148,6 +148,7 @@ Quality readQuality(const json& value, const std::string& pointer, JsonComplaint
     object.read("dither", quality.dither);
     object.read("skipEmpty", quality.skipEmpty);
     object.read("interpolationGreyLevels", quality.interpolationGreyLevels);
+    object.readName("gradients", quality.gradients);
     return quality;
 }
 

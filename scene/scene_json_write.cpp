@@ -188,6 +188,7 @@ Json write(const Quality& quality, bool full) {
     writer.plain("dither", quality.dither, ordinary.dither);
     writer.plain("skipEmpty", quality.skipEmpty, ordinary.skipEmpty);
     writer.number("interpolationGreyLevels", quality.interpolationGreyLevels);
+    writer.named("gradients", quality.gradients, ordinary.gradients);
     return writer.take();
 }
 

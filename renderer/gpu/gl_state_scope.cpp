@@ -45,7 +45,7 @@ GlStateScope::~GlStateScope() {
     setEnabled(GL_BLEND, m_blend);
     setEnabled(GL_DEPTH_TEST, m_depthTest);
     setEnabled(GL_CULL_FACE, m_cullFace);
-    for (GLuint unit = 0; unit < 6; ++unit) glBindSampler(unit, 0);
+    for (GLuint unit = 0; unit < 8; ++unit) glBindSampler(unit, 0);
 }
 
 }  // namespace pellucid::renderer

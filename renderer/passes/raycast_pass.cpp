@@ -53,7 +53,31 @@ void readBand(GLuint texture, glm::ivec2 band, glm::ivec2 targetSize, int fromBo
     }
 }
 
+double fetchesPerValue(Filter filter) {
+    switch (filter) {
+        case Filter::Nearest:
+        case Filter::Trilinear:
+            return 1.0;
+        case Filter::TricubicBSpline:
+        case Filter::TrilinearExact:
+            return 8.0;
+        case Filter::CatmullRom:
+        case Filter::TricubicBSplineDeBoor:
+            return 27.0;
+        case Filter::TricubicBSplineLut:
+            return 64.0;
+        case Filter::Lanczos3:
+            break;
+    }
+    return 216.0;
+}
+
 }  // namespace
+
+double guessedMsPerSample(const Features& features) {
+    constexpr double kMsPerFetch = 10e-6;
+    return kMsPerFetch * fetchesPerValue(features.filter) * (features.lit ? 7.0 : 1.0);
+}
 
 RaycastPass::RaycastPass(bool softwareDevice)
     : m_noVertices(createVertexArray()),
@@ -86,6 +110,10 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
     if (inputs.importance != 0) {
         glBindTextureUnit(6, inputs.importance);
         glBindSampler(6, m_nearest.id());
+    }
+    if (inputs.field != 0) {
+        glBindTextureUnit(7, inputs.field);
+        glBindSampler(7, m_linear.id());
     }
     if (inputs.lightsBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 0, inputs.lightsBlock);
     if (inputs.surfacesBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 1, inputs.surfacesBlock);

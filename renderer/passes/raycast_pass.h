@@ -26,6 +26,7 @@ struct RaycastInputs {
     GLuint filterWeights = 0;  ///< 0: none.
     GLuint leapField = 0;      ///< 0: none.
     GLuint importance = 0;     ///< 0: none.
+    GLuint field = 0;          ///< 0: none.
     GLuint lightsBlock = 0;    ///< 0: none.
     GLuint surfacesBlock = 0;  ///< 0: none.
     bool interpolates = true;  ///< The volume's sampler is linear.
@@ -35,6 +36,10 @@ struct RaycastInputs {
     std::optional<double> interpolation;
     ErrorNorm norm = ErrorNorm::Rmse;
 };
+
+/// First guess of a sample's cost: slower than any device seen, so that the first tile is not too long for
+/// one.
+[[nodiscard]] double guessedMsPerSample(const Features& features);
 
 /// Draws pictures tile by tile, so that no draw holds the device for long.
 class RaycastPass {

@@ -55,6 +55,14 @@ void addGeometry(Uniforms& uniforms, const Grid& grid, double texelExtent) {
     uniforms.emplace_back("gradientFloor", static_cast<float>(1e-6 * texelExtent));
 }
 
+/// Of the texture of values and gradients, which has a voxel more on every side.
+void addField(Uniforms& uniforms, const Grid& grid, const FieldLayout& layout) {
+    const glm::dvec3 size(layout.size);
+    uniforms.emplace_back("fieldScale", glm::vec3(glm::dvec3(grid.size) / size));
+    uniforms.emplace_back("fieldOffset", glm::vec3(1.0 / size));
+    uniforms.emplace_back("differenceFromTexel", glm::vec2(layout.differenceFromTexel()));
+}
+
 /// A table coordinate (or position) of entry i of `size`, i = (value - lo) / (hi - lo) * (size - 1), as a
 /// line over u: i * scale + offset.
 glm::vec2 entryFromTexel(const VolumeTexture& volume, double lo, double hi, int size, double scale,
@@ -150,6 +158,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     uniforms.emplace_back("pictureSize", glm::vec2(scene.picture.size));
     addRay(uniforms, rayFrame(scene.camera, grid, scene.picture.size), grid);
     addGeometry(uniforms, grid, volume.texelExtent);
+    if (tables.field != nullptr) addField(uniforms, grid, tables.field->layout);
     addAdaptive(uniforms, scene, plan, maxLoopTurns);
     addImportance(uniforms, scene, plan, grid);
     glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
@@ -190,6 +199,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     uniforms.emplace_back("filterWeights", 4);
     uniforms.emplace_back("leapField", 5);
     uniforms.emplace_back("importanceVolume", 6);
+    uniforms.emplace_back("fieldTexture", 7);
     return uniforms;
 }
 

@@ -14,6 +14,7 @@
 #include <glm/vec4.hpp>
 
 #include "renderer/plan/plan.h"
+#include "renderer/resources/field_texture.h"
 #include "renderer/resources/occupancy.h"
 #include "renderer/resources/preintegration_texture.h"
 #include "renderer/resources/transfer_texture.h"
@@ -30,6 +31,7 @@ struct FrameTables {
     const PreintegrationTexture* preintegration = nullptr;
     const IntegralTexture* integrals = nullptr;
     const Occupancy* occupancy = nullptr;
+    const FieldTexture* field = nullptr;
 };
 
 /// Numbers of a frame. All that any stage of the plan may declare; those it does not are skipped when they

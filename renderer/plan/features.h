@@ -15,6 +15,12 @@ enum class Skipping {
     Leaps  ///< And pass over empty blocks within it.
 };
 
+/// Where the gradient of a lit sample comes from.
+enum class GradientSource {
+    OnTheFly,  ///< Six more values around it.
+    Texture    ///< One fetch, with the value.
+};
+
 /// The structure of a scene: everything that selects shader text, and nothing that is a mere number.
 /// Two scenes with equal features use the same program.
 struct Features {
@@ -31,7 +37,9 @@ struct Features {
     int surfaces = 0;  ///< Count of the volume's isosurfaces; Isosurface only.
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
-    Skipping skipping = Skipping::None;  ///< Set by makePlan: it depends on the data too.
+    // Set by makePlan, since they depend on the data too.
+    Skipping skipping = Skipping::None;
+    GradientSource gradients = GradientSource::OnTheFly;
     bool operator==(const Features&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/plan/gradients.h"
 #include "renderer/plan/importance.h"
 #include "renderer/plan/preintegration.h"
 #include "renderer/plan/skipping.h"
@@ -155,7 +156,9 @@ std::string toleranceText(const Quality& quality) {
 }
 
 VolumeFacts factsOf(const Volume& volume, int component) {
-    return {volume.grid(), volume.type(), volume.physicalRange(component), volume.mapping().slope < 0.0};
+    const ValueRange stored = volume.storedRange(component);
+    return {volume.grid(), volume.type(), volume.physicalRange(component), volume.mapping().slope < 0.0,
+            stored.hi - stored.lo};
 }
 
 double turnsPerSample(const Plan& plan) {
@@ -245,6 +248,7 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     for (const auto& pass : plan.passes) plan.totalBytes += pass.bytes;
     for (const auto& resource : plan.resources) plan.totalBytes += resource.bytes;
     planSkipping(plan, scene, facts, limits);
+    if (auto fine = planGradients(plan, scene, facts, limits); !fine) return tl::unexpected(fine.error());
     return plan;
 }
 

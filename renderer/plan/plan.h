@@ -17,7 +17,8 @@ struct VolumeFacts {
     Grid grid;
     VoxelType type = VoxelType::UInt8;
     ValueRange physicalRange;
-    bool descending = false;  ///< Physical values fall where stored ones rise (negative slope).
+    bool descending = false;        ///< Physical values fall where stored ones rise (negative slope).
+    double storedExtent = 65535.0;  ///< Largest minus smallest stored value, or more.
     bool operator==(const VolumeFacts&) const = default;
 };
 [[nodiscard]] VolumeFacts factsOf(const Volume& volume, int component);
@@ -95,6 +96,7 @@ struct DeviceLimits {
     /// Turns of all loops of one pixel after which the driver ends them, right or wrong (llvmpipe: 65535).
     /// Measured.
     double maxLoopTurns = 1e9;
+    std::uint64_t maxFieldBytes = 1ull << 30;  ///< Of the texture of values and gradients.
 };
 [[nodiscard]] Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
                                     const DeviceLimits& limits = {});

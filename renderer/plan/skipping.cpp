@@ -13,6 +13,8 @@ namespace pellucid::renderer {
 namespace {
 
 constexpr const char* kLeapField = "leap field";
+constexpr const char* kLeaps = "leaps";
+constexpr const char* kEmptyBlocks = "empty blocks";
 
 /// Why values alone cannot tell that a sample does not matter; null when they can.
 const char* whyNot(const Features& features) {
@@ -48,10 +50,11 @@ double turnsWithLeaps(const Plan& plan) {
 
 /// Puts a choice into the plan in place of the one before. `leftOut`: what was not chosen, and why.
 void choose(Plan& plan, Skipping skipping, const std::vector<LeftOutRow>& leftOut) {
-    plan.features.skipping = skipping;
-    auto stages = chooseStages(plan.features);
-    plan.stages = std::move(stages.rows);
-    plan.leftOut = std::move(stages.leftOut);
+    std::erase_if(plan.leftOut,
+                  [](const LeftOutRow& row) { return row.what == kLeaps || row.what == kEmptyBlocks; });
+    Features features = plan.features;
+    features.skipping = skipping;
+    changeFeatures(plan, features);
     plan.leftOut.insert(plan.leftOut.end(), leftOut.begin(), leftOut.end());
     if (skipping == Skipping::Leaps) return;
     std::erase_if(plan.resources, [&](const ResourceRow& row) {
@@ -75,7 +78,7 @@ void addLeapField(Plan& plan, glm::ivec3 blocks) {
 
 void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts, const DeviceLimits& limits) {
     const auto none = [&](const std::string& reason) {
-        choose(plan, Skipping::None, {{"empty blocks", reason}});
+        choose(plan, Skipping::None, {{kEmptyBlocks, reason}});
     };
     if (!scene.quality.skipEmpty) return none("not asked for: every sample is taken");
     if (const char* reason = whyNot(plan.features)) return none(reason);
@@ -84,7 +87,7 @@ void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts, cons
     if (everyValueShows(scene, plan, facts)) return none("every value of the data can show");
     if (turnsWithLeaps(plan) > limits.maxLoopTurns)
         return choose(plan, Skipping::Box,
-                      {{"leaps", "rays of so many samples leave the driver no turns of its loops for them"}});
+                      {{kLeaps, "rays of so many samples leave the driver no turns of its loops for them"}});
     addLeapField(plan, blocks);
     choose(plan, Skipping::Leaps, {});
 }
@@ -103,9 +106,9 @@ void refineSkipping(Plan& plan, const OccupancyFacts& occupancy) {
         return;
     }
     if (occupancy.boxBlocks == occupancy.blocks)
-        choose(plan, Skipping::None, {{"empty blocks", share + ", and the box is the volume"}});
+        choose(plan, Skipping::None, {{kEmptyBlocks, share + ", and the box is the volume"}});
     else if (plan.features.skipping == Skipping::Leaps)
-        choose(plan, Skipping::Box, {{"leaps", share}});
+        choose(plan, Skipping::Box, {{kLeaps, share}});
 }
 
 }  // namespace pellucid::renderer

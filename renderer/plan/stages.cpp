@@ -60,12 +60,19 @@ std::span<const StageVariant> stageTable() {
          {"voxelStep", "gradientFromIndex", "gradientFloor"},
          {},
          {"reconstruct"}},
+        {"gradient",
+         "precomputed",
+         {"fieldTexture", "fieldScale", "fieldOffset", "differenceFromTexel", "gradientFromIndex",
+          "gradientFloor"},
+         {},
+         {}},
         {"shade", "blinn_phong", {"material"}, {"Lights"}, {"gradient"}},
         {"accumulate", "float32", {}, {}, {}},
         {"accumulate", "half", {}, {}, {}},
         {"accumulate", "unorm8", {}, {}, {}},
         {"terminate", "transmittance", {"terminationTransmittance"}, {}, {}},
         {"compose", "over", {}, {}, {"reconstruct", "integrate", "accumulate"}},
+        {"compose", "over_lit", {}, {}, {"integrate", "gradient", "shade", "accumulate"}},
         {"compose", "over_segments", {}, {}, {"integrate", "accumulate"}},
         {"compose", "mip", {}, {}, {"classify"}},
         {"compose", "minip", {}, {}, {"classify"}},
@@ -82,6 +89,7 @@ std::span<const StageVariant> stageTable() {
         {"jitter", "blue_noise", {"blueNoise"}, {}, {}},
         {"traverse", "midpoints", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "midpoints_by_four", {"stepMm"}, {}, {"reconstruct", "compose"}},
+        {"traverse", "lit_midpoints_by_four", {"stepMm"}, {}, {"gradient", "compose"}},
         {"traverse", "segments", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse",
          "adaptive",
@@ -188,12 +196,20 @@ StageRow accumulateRow(Accumulation accumulation) {
     return {"accumulate", "float32", "front to back, weights are differences of transmittance"};
 }
 
+/// Samples whose value and gradient are one fetch.
+bool samplesWholeField(const Features& features) {
+    return features.lit && features.gradients == GradientSource::Texture &&
+           features.mode == Mode::Composite && !integratesSegments(features.integrator) &&
+           features.classification == Classification::Post;
+}
+
 StageRow composeRow(const Features& features) {
     const std::string reason = fmt::format("mode {}", name(features.mode));
     const auto row = [&](const char* variant) { return StageRow{"compose", variant, reason}; };
     const bool segments = integratesSegments(features.integrator);
     switch (features.mode) {
         case Mode::Composite:
+            if (samplesWholeField(features)) return row("over_lit");
             return row(segments ? "over_segments" : "over");
         case Mode::Mip:
             return row("mip");
@@ -230,6 +246,9 @@ StageRow traverseRow(const Features& features) {
         return {"traverse", "importance", "steps follow how much the data around bend"};
     if (integratesSegments(features.integrator))
         return {"traverse", "segments", "equal segments, integrated from both ends"};
+    if (samplesWholeField(features))
+        return {"traverse", "lit_midpoints_by_four",
+                "equal segments; value and gradient are one fetch, so four are taken a turn"};
     // Unrolling a wider filter's 8 to 216 fetches would only make the program longer to compile.
     if (features.classification == Classification::Post &&
         (features.filter == Filter::Nearest || features.filter == Filter::Trilinear))
@@ -245,7 +264,10 @@ StageChoice chooseStages(const Features& features) {
     auto& rows = choice.rows;
     auto& leftOut = choice.leftOut;
     rows.push_back(rayRow(features.projection));
-    rows.push_back(reconstructRow(features.filter));
+    if (samplesWholeField(features))
+        leftOut.push_back({"reconstruct", "values are fetched with their gradients"});
+    else
+        rows.push_back(reconstructRow(features.filter));
     if (features.skipping != Skipping::None)
         rows.push_back({"bounds", "box", "samples outside the box of what can show are not taken"});
     if (features.skipping == Skipping::Leaps)
@@ -267,7 +289,10 @@ StageChoice chooseStages(const Features& features) {
                             (features.mode == Mode::XRay && integratesSegments(features.integrator));
     if (integrates) rows.push_back(integrateRow(features.integrator));
     if (features.lit) {
-        rows.push_back({"gradient", "central_difference", "shading needs a normal"});
+        if (features.gradients == GradientSource::Texture)
+            rows.push_back({"gradient", "precomputed", "many samples of a ray are lit"});
+        else
+            rows.push_back({"gradient", "central_difference", "shading needs a normal"});
         rows.push_back(
             {"shade", "blinn_phong",
              fmt::format("the scene has {} light{}", features.lights, features.lights == 1 ? "" : "s")});
@@ -297,6 +322,21 @@ StageChoice chooseStages(const Features& features) {
         leftOut.push_back({"encode", "colours are blended as they are shown"});
     }
     return choice;
+}
+
+void changeFeatures(Plan& plan, const Features& features) {
+    const auto before = chooseStages(plan.features).leftOut;
+    auto choice = chooseStages(features);
+    for (auto& row : plan.leftOut)
+        if (std::find(before.begin(), before.end(), row) == before.end())
+            choice.leftOut.push_back(std::move(row));
+    // Reasons may have been made more precise since.
+    for (auto& row : choice.rows)
+        for (const auto& old : plan.stages)
+            if (row.stage == old.stage && row.variant == old.variant) row.reason = old.reason;
+    plan.features = features;
+    plan.stages = std::move(choice.rows);
+    plan.leftOut = std::move(choice.leftOut);
 }
 
 }  // namespace pellucid::renderer

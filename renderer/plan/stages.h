@@ -34,4 +34,7 @@ struct StageChoice {
 };
 [[nodiscard]] StageChoice chooseStages(const Features& features);
 
+/// Gives a plan other features and the stages that go with them. What else it left out stays as it is.
+void changeFeatures(Plan& plan, const Features& features);
+
 }  // namespace pellucid::renderer

@@ -168,6 +168,15 @@ Result<const GlTexture*> ResourceStore::importance(const VolumePtr& volume, int 
     return &m_importances.front().made;
 }
 
+Result<FieldTexture*> ResourceStore::field(const VolumePtr& volume, int component) {
+    if (auto* known = ofVolume(m_fields, volume, component)) return known;
+    auto field = allocateField(layoutField(factsOf(*volume, component)));
+    if (!field) return tl::unexpected(field.error());
+    ++counts.fieldTextures;
+    m_fields.push_front({volume, component, std::move(*field)});
+    return &m_fields.front().made;
+}
+
 const GlTexture& ResourceStore::blueNoise() {
     if (!m_blueNoise) m_blueNoise = createBlueNoise();
     return m_blueNoise;

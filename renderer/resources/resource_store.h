@@ -7,6 +7,7 @@
 
 #include "renderer/plan/shown_values.h"
 #include "renderer/renderer.h"
+#include "renderer/resources/field_texture.h"
 #include "renderer/resources/leap_texture.h"
 #include "renderer/resources/preintegration_texture.h"
 #include "renderer/resources/transfer_texture.h"
@@ -41,6 +42,8 @@ public:
     /// How much a volume bends, from its voxels alone; kept as long as the volume. Errors: Cancelled.
     [[nodiscard]] Result<const GlTexture*> importance(const VolumePtr& volume, int component,
                                                       const Progress& progress);
+    /// Values and gradients of a volume, perhaps still to be made; kept as long as the volume. Errors: Gpu.
+    [[nodiscard]] Result<FieldTexture*> field(const VolumePtr& volume, int component);
     [[nodiscard]] const GlTexture& blueNoise();
     [[nodiscard]] const GlTexture& filterWeights();
     /// A std140 block with the scene's lights; kept while the lights are the same.
@@ -98,7 +101,8 @@ private:
     };
     [[nodiscard]] Result<const BlockRanges*> ranges(const VolumePtr& volume, int component, int voxels,
                                                     const Progress& progress);
-    std::list<OfVolume<VolumeTexture>> m_volumes;  // this and the next three most recently used first
+    std::list<OfVolume<VolumeTexture>> m_volumes;  // this and the next four most recently used first
+    std::list<OfVolume<FieldTexture>> m_fields;
     std::list<OfVolume<GlTexture>> m_importances;
     std::list<OfVolume<PaddedRanges>> m_ranges;
     std::list<OfVolume<ShownLeaps>> m_leaps;

@@ -33,7 +33,8 @@ std::map<std::string, std::string> variants(const json& plan) {
 
 TEST_F(Plan, ALightAddsExactlyTheGradientShadeAndLightRows) {
     writeBallScene("unlit.json", R"(, "lights": [])");
-    writeBallScene("lit.json", R"(, "lights": [{"kind": "headlight"}])");
+    writeBallScene("lit.json",
+                   R"(, "lights": [{"kind": "headlight"}], "quality": {"gradients": "on-the-fly"})");
     const json unlit = planOf("unlit.json");
     const json lit = planOf("lit.json");
 

@@ -33,6 +33,7 @@ TEST(Plan, ALightAddsExactlyGradientShadeAndLights) {
     Scene scene = rampScene();
     const Plan unlit = planOf(scene);
     scene.lights->push_back(Light{});
+    scene.quality.gradients = Gradients::OnTheFly;
     const Plan lit = planOf(scene);
     std::vector<std::string> added = rowNames(lit);
     for (const auto& name : rowNames(unlit)) {
@@ -51,6 +52,33 @@ TEST(Plan, ALightAddsExactlyGradientShadeAndLights) {
         EXPECT_TRUE(leftOut(unlit, what)) << what;
         EXPECT_FALSE(leftOut(lit, what)) << what;
     }
+}
+
+TEST(Plan, GradientsComeFromATextureWhereThatIsExactAndFits) {
+    const auto fieldBytes = [](const Plan& plan) {
+        for (const auto& row : plan.resources)
+            if (row.name == "values and gradients") return row.bytes;
+        return std::uint64_t{0};
+    };
+    Scene scene = rampScene();
+    EXPECT_EQ(fieldBytes(planOf(scene)), 0u);  // unlit
+    scene.lights->push_back(Light{});
+    // A voxel more on every side, four times 16 bits.
+    EXPECT_EQ(fieldBytes(planOf(scene)), 514ull * 514 * 302 * 8);
+    EXPECT_EQ(planOf(scene).features.gradients, GradientSource::Texture);
+    scene.volumes.front().filter = Filter::CatmullRom;
+    EXPECT_EQ(fieldBytes(planOf(scene)), 0u);
+    scene.quality.gradients = Gradients::Texture;
+    EXPECT_EQ(makePlan(scene, {kFacts}).error().code, ErrorCode::Unsupported);
+    scene.volumes.front().filter = Filter::Trilinear;
+    DeviceLimits small;
+    small.maxFieldBytes = 100 << 20;
+    EXPECT_EQ(makePlan(scene, {kFacts}, small).error().code, ErrorCode::TooLarge);
+    scene.quality.gradients = Gradients::Auto;
+    const auto without = makePlan(scene, {kFacts}, small);
+    ASSERT_TRUE(without);
+    EXPECT_EQ(fieldBytes(*without), 0u);
+    EXPECT_EQ(without->features.gradients, GradientSource::OnTheFly);
 }
 
 TEST(Plan, BytesAreThoseOfTheVolumeAndThePicture) {

@@ -56,6 +56,16 @@ std::vector<Features> coveringSet() {
             scene.xray = half == 0 ? XRayDisplay::Opacity : XRayDisplay::Transmittance;
             all.push_back(featuresOf(scene));
         }
+    // Differences from a texture: with their values where those are sampled alone, or only they.
+    for (const auto integrator : {Integrator::Exponential, Integrator::Simpson})
+        for (const bool jitter : {false, true}) {
+            Scene scene = test::rampScene();
+            scene.lights->resize(1);
+            scene.quality.integrator = integrator;
+            scene.quality.jitter = jitter;
+            all.push_back(featuresOf(scene));
+            all.back().gradients = GradientSource::Texture;
+        }
     // What is skipped goes with everything that can be skipped in.
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].mode != Mode::Average && all[i].mode != Mode::Slice)

@@ -189,6 +189,7 @@ Scene randomScene(std::mt19937_64& random) {
     scene.quality.dither = make.coin();
     scene.quality.skipEmpty = make.coin();
     if (make.coin()) scene.quality.interpolationGreyLevels = make.positive();
+    scene.quality.gradients = make.anyOf<Gradients>();
     if (make.coin()) scene.picture.size = {make.integer(1, 16384), make.integer(1, 16384)};
     if (make.coin()) scene.picture.background = make.color();
     scene.picture.transparent = make.coin();

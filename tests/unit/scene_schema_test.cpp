@@ -161,6 +161,7 @@ TEST(SceneSchema, ListsOfNamesAreThoseOfTheCode) {
         {"projection", namesOf<Projection>()},
         {"integrator", namesOf<Integrator>()},
         {"accumulation", namesOf<Accumulation>()},
+        {"gradients", namesOf<Gradients>()},
         {"toleranceNorm", namesOf<ErrorNorm>()},
         {"view", namesOf<AnatomicalView>()},
         {"preset", presets}};
