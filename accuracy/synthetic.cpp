@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/synthetic.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -89,26 +90,39 @@ VolumePtr marschnerLobb(int n) {
                          {1.0 / kSteps, 0.0, ""});
 }
 
-VolumePtr ctLikeShells(int n) {
+namespace {
+
+/// `edge`: width of the shells' edges, of the unit ball.
+VolumePtr shells(const Grid& grid, double edge) {
     struct Shell {
         double radius;  ///< Outer, of the unit ball.
         double hu;
     };
     constexpr std::array<Shell, 5> kShells{
         {{0.92, 40.0}, {0.88, -90.0}, {0.78, 55.0}, {0.55, 1100.0}, {0.45, 250.0}}};
-    const auto value = [&, n](glm::ivec3 index) {
-        const glm::dvec3 p = (2.0 * glm::dvec3(index) + 1.0) / static_cast<double>(n) - 1.0;
+    const auto value = [&](glm::ivec3 index) {
+        const glm::dvec3 p = (2.0 * glm::dvec3(index) + 1.0) / glm::dvec3(grid.size) - 1.0;
         const double r = glm::length(p * glm::dvec3(1.0, 1.15, 1.05));
         double hu = -1000.0;
         double outside = -1000.0;
         for (const Shell& shell : kShells) {
-            hu += (shell.hu - outside) * smoothStep(shell.radius, 1.0 / n, r);
+            hu += (shell.hu - outside) * smoothStep(shell.radius, edge, r);
             outside = shell.hu;
         }
         return hu + 8.0 * std::sin(37.0 * p.x) * std::sin(41.0 * p.y) * std::sin(43.0 * p.z);
     };
-    return sampledVolume(axisAlignedGrid({n, n, n}, glm::dvec3(200.0 / n)), VoxelType::Int16, value,
-                         {1.0, 0.0, "HU"});
+    return sampledVolume(grid, VoxelType::Int16, value, {1.0, 0.0, "HU"});
+}
+
+}  // namespace
+
+VolumePtr ctLikeShells(int n) {
+    return shells(axisAlignedGrid({n, n, n}, glm::dvec3(200.0 / n)), 1.0 / n);
+}
+
+VolumePtr ctLikeShells(glm::ivec3 size) {
+    return shells(axisAlignedGrid(size, {384.0 / size.x, 384.0 / size.y, 1.25}),
+                  2.0 / std::max(size.x, size.z));
 }
 
 VolumePtr randomVolume(const Grid& grid, std::uint64_t seed) {

@@ -25,6 +25,8 @@ namespace pellucid::accuracy {
 /// Nested ellipsoids with HU of air, skin, fat, muscle, bone and marrow, soft edges and a little texture;
 /// int16.
 [[nodiscard]] VolumePtr ctLikeShells(int n);
+/// The same in a field of view of 384 mm x 384 mm x 1.25 mm a slice, as of a scanner.
+[[nodiscard]] VolumePtr ctLikeShells(glm::ivec3 size);
 
 /// Independent uniform values in [0, 1], float. The same seed gives the same volume on every machine.
 [[nodiscard]] VolumePtr randomVolume(const Grid& grid, std::uint64_t seed);

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "io/dicom_header.h"
 #include "io/dicom_pixels.h"
 #include "io/text_scan.h"
+#include "scene/parallel.h"
 
 namespace pellucid::io {
 namespace {
@@ -23,43 +26,98 @@ tl::unexpected<Error> cancelled() {
     return fail(ErrorCode::Cancelled, "loading was cancelled");
 }
 
+/// On all cores; of several errors that of the first file.
 Result<std::vector<SliceHeader>> readHeaders(const DicomSeries& series, const Progress& progress) {
+    constexpr std::uint64_t kFilesAtATime = 8;
+    std::vector<std::optional<Result<SliceHeader>>> read(series.files.size());
+    const Progress share = [&](double fraction, std::string_view what) {
+        return goOn(progress, kHeaderShare * fraction, what);
+    };
+    const bool isWhole = forEachChunk(
+        read.size(), kFilesAtATime,
+        [&](std::uint64_t begin, std::uint64_t end) {
+            for (std::uint64_t i = begin; i < end; ++i) read[i] = readSliceHeader(series.files[i]);
+        },
+        share, "reading DICOM headers");
+    if (!isWhole) return cancelled();
     std::vector<SliceHeader> slices;
-    for (const std::filesystem::path& file : series.files) {
-        const double done = static_cast<double>(slices.size()) / static_cast<double>(series.files.size());
-        if (!goOn(progress, kHeaderShare * done, "reading DICOM headers")) return cancelled();
-        auto slice = readSliceHeader(file);
-        if (!slice) return tl::unexpected(slice.error());
-        slices.push_back(std::move(*slice));
+    for (auto& slice : read) {
+        if (!*slice) return tl::unexpected(slice->error());
+        slices.push_back(std::move(**slice));
     }
     return slices;
 }
 
-/// Decodes the slices, ordered as in the volume, on several threads. Progress is called on this thread only.
+/// One of so many voxels along each axis is in a coarse copy.
+constexpr int kCoarseEvery = 4;
+/// Below this the whole is there before anybody could have seen a copy.
+constexpr std::uint64_t kLeastForCoarse = 16'000'000;
+
+/// Every fourth voxel, which lies where it lay. Only those slices need to be decoded.
+Result<VolumePtr> coarseCopy(const Grid& grid, VoxelType type, std::span<const std::byte> voxels,
+                             const ValueMapping& mapping, const VolumeInfo& info) {
+    Grid coarse = grid;
+    coarse.size = (grid.size + (kCoarseEvery - 1)) / kCoarseEvery;
+    for (int axis = 0; axis < 3; ++axis) coarse.patientFromIndex[axis] *= kCoarseEvery;
+    const std::size_t width = bytesPerComponent(type);
+    std::vector<std::byte> kept(static_cast<std::size_t>(coarse.size.x) *
+                                static_cast<std::size_t>(coarse.size.y) *
+                                static_cast<std::size_t>(coarse.size.z) * width);
+    std::byte* to = kept.data();
+    for (int k = 0; k < grid.size.z; k += kCoarseEvery)
+        for (int j = 0; j < grid.size.y; j += kCoarseEvery) {
+            const auto row = static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.size.y) +
+                             static_cast<std::size_t>(j);
+            const std::byte* from = voxels.data() + row * static_cast<std::size_t>(grid.size.x) * width;
+            for (int i = 0; i < grid.size.x; i += kCoarseEvery, to += width)
+                std::memcpy(to, from + static_cast<std::size_t>(i) * width, width);
+        }
+    return Volume::make(coarse, type, 1, std::move(kept), mapping, info);
+}
+
+/// Decodes the slices, ordered as in the volume, on several threads: first those of the coarse copy. Progress
+/// is called on this thread only.
 class Decoder {
 public:
     Decoder(std::span<const SliceHeader> slices, StoredForm form, std::span<std::byte> voxels)
         : m_slices(slices), m_form(form), m_voxels(voxels), m_sliceBytes(voxels.size() / slices.size()) {}
 
+    /// Only the slices of the coarse copy.
+    Result<void> runCoarse(const Progress& progress) {
+        for (std::size_t k = 0; k < m_slices.size(); k += kCoarseEvery) m_order.push_back(k);
+        return runOrder(progress);
+    }
+    /// All that are left.
     Result<void> run(const Progress& progress) {
-        const std::size_t helpers =
-            std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), m_slices.size()) - 1;
-        {
-            std::vector<std::jthread> threads;
-            for (std::size_t i = 0; i < helpers; ++i) threads.emplace_back([this] { work({}); });
-            work(progress);
-        }
-        if (m_error) return tl::unexpected(*m_error);
-        if (!goOn(progress, 1.0, "decoding slices")) return cancelled();
-        return {};
+        const bool hasCoarse = !m_order.empty();
+        m_order.clear();
+        for (std::size_t k = 0; k < m_slices.size(); ++k)
+            if (!hasCoarse || k % kCoarseEvery != 0) m_order.push_back(k);
+        return runOrder(progress);
     }
 
 private:
+    Result<void> runOrder(const Progress& progress) {
+        m_next = 0;
+        const std::size_t helpers =
+            std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), m_order.size());
+        {
+            std::vector<std::jthread> threads;
+            for (std::size_t i = 1; i < helpers; ++i) threads.emplace_back([this] { work({}); });
+            work(progress);
+        }
+        m_done += m_order.size();
+        if (m_error) return tl::unexpected(*m_error);
+        if (m_done == m_slices.size() && !goOn(progress, 1.0, "decoding slices")) return cancelled();
+        return {};
+    }
+
     void work(const Progress& progress) {
         while (!m_stop) {
-            const std::size_t k = m_next++;
-            if (k >= m_slices.size()) return;
-            const double done = static_cast<double>(k) / static_cast<double>(m_slices.size());
+            const std::size_t next = m_next++;
+            if (next >= m_order.size()) return;
+            const std::size_t k = m_order[next];
+            const double done = static_cast<double>(m_done + next) / static_cast<double>(m_slices.size());
             if (!goOn(progress, kHeaderShare + (1.0 - kHeaderShare) * done, "decoding slices")) {
                 return stop(cancelled().value());
             }
@@ -78,6 +136,8 @@ private:
     StoredForm m_form;
     std::span<std::byte> m_voxels;
     std::size_t m_sliceBytes;
+    std::vector<std::size_t> m_order;  ///< The slices to decode now.
+    std::size_t m_done = 0;            ///< Slices decoded before these.
     std::atomic<std::size_t> m_next{0};
     std::atomic<bool> m_stop{false};
     std::mutex m_mutex;
@@ -142,6 +202,21 @@ std::vector<std::pair<std::string, std::string>> factsOf(const std::vector<Slice
     return facts;
 }
 
+VolumeInfo infoOf(const std::vector<SliceHeader>& slices, const Grid& grid, const SeriesGeometry& geometry,
+                  const StoredForm& form, const DicomSeries& series) {
+    VolumeInfo info;
+    const SliceHeader& middle =
+        slices[slices.size() / 2];  // Windows differ by slice in MR; the middle shows most.
+    info.name = series.description.empty() ? series.modality + " series" : series.description;
+    info.modality = middle.modality;
+    info.windows = middle.windows;
+    info.warnings = geometry.warnings;
+    addWarnings(slices, form, info);
+    info.warnings.insert(info.warnings.end(), series.warnings.begin(), series.warnings.end());
+    info.facts = factsOf(slices, grid, geometry);
+    return info;
+}
+
 }  // namespace
 
 Result<VolumePtr> loadDicomSeries(const DicomSeries& series, const LoadOptions& options) {
@@ -174,23 +249,20 @@ Result<VolumePtr> loadDicomSeries(const DicomSeries& series, const LoadOptions& 
     }
     // Each file was seen to be able to hold its slice, so this is bounded by what is on disk.
     std::vector<std::byte> voxels(static_cast<std::size_t>(*count * width));
-    if (auto decoded = Decoder(slices, form, voxels).run(options.progress); !decoded)
-        return tl::unexpected(decoded.error());
-
-    VolumeInfo info;
-    const SliceHeader& middle =
-        slices[slices.size() / 2];  // Windows differ by slice in MR; the middle shows most.
-    info.name = series.description.empty() ? series.modality + " series" : series.description;
-    info.modality = middle.modality;
-    info.windows = middle.windows;
-    info.warnings = geometry->warnings;
-    addWarnings(slices, form, info);
-    info.warnings.insert(info.warnings.end(), series.warnings.begin(), series.warnings.end());
-    info.facts = factsOf(slices, grid, *geometry);
+    const VolumeInfo info = infoOf(slices, grid, *geometry, form, series);
     const ValueMapping mapping =
         form.physical ? ValueMapping{1.0, 0.0, unitOf(slices.front())}
                       : ValueMapping{slices.front().slope, slices.front().intercept, unitOf(slices.front())};
-    return Volume::make(grid, form.type, 1, std::move(voxels), mapping, std::move(info));
+    Decoder decoder(slices, form, voxels);
+    if (options.coarse && *count >= kLeastForCoarse) {
+        if (auto decoded = decoder.runCoarse(options.progress); !decoded)
+            return tl::unexpected(decoded.error());
+        // What is wrong with the values is said when all are there.
+        if (auto coarse = coarseCopy(grid, form.type, voxels, mapping, info))
+            options.coarse(std::move(*coarse));
+    }
+    if (auto decoded = decoder.run(options.progress); !decoded) return tl::unexpected(decoded.error());
+    return Volume::make(grid, form.type, 1, std::move(voxels), mapping, info);
 }
 
 Result<VolumePtr> loadDicom(const std::vector<std::filesystem::path>& paths, const LoadOptions& options) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct LoadOptions {
     std::string seriesUid;         ///< Which series of a folder or DICOMDIR, when it holds several.
     std::uint64_t maxVoxelBytes = 16ull << 30;  ///< Refused above this, before anything is allocated.
     Progress progress;
+    /// Of a DICOM series of 16 million voxels and more: every fourth voxel along each axis, as soon as these
+    /// slices are there. Called on the loading thread, at most once; loading may still fail after it.
+    std::function<void(VolumePtr coarse)> coarse{};
 };
 
 /// Reads one volume: a file in any known format, a folder or list of DICOM files, or a DICOMDIR.

@@ -121,6 +121,7 @@ Result<LoadedScene> loadScene(const fs::path& file, const LoadOptions& options) 
         if (!item.source.empty()) item.source = (folder / fs::path(item.source)).lexically_normal().string();
         LoadOptions own = options;
         own.progress = partOf(options.progress, i, count);
+        own.coarse = {};  // A coarse copy of one volume is not the scene.
         const auto known = bySource.find(item.source);
         if (known != bySource.end() && item.component < known->second->components()) {
             loaded.volumes.push_back(known->second);

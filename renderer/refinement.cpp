@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "renderer/resize.h"
 #include "scene/check.h"
 
 namespace pellucid::renderer {
@@ -33,12 +34,14 @@ Quality statedQuality(const Quality& asked, const std::optional<Quality>& chosen
     return stated;
 }
 
-Quality passingQuality(const Quality& asked, const std::optional<Quality>& chosen) {
-    return asked.automatic ? withStepTimes(statedQuality(asked, chosen), 2.0) : asked;
+Quality passingQuality(const Quality& asked, const std::optional<Quality>& chosen, double stepTimes) {
+    const Quality stated = statedQuality(asked, chosen);
+    return stepTimes == 1.0 ? stated : withStepTimes(stated, stepTimes);
 }
 
-Refinement::Refinement(Scene scene, const std::optional<Quality>& chosen)
+Refinement::Refinement(Scene scene, const std::optional<Quality>& chosen, double from)
     : m_scene(std::move(scene)), m_stated(statedQuality(m_scene.quality, chosen)) {
+    if (from < 4.0) m_stage = from < 2.0 ? Stage::Asked : Stage::TwoSteps;
     // A slice takes one sample a pixel: there is nothing to refine.
     if (m_scene.mode == Mode::Slice) m_stage = Stage::Asked;
 }
@@ -61,6 +64,7 @@ std::shared_ptr<const Frame> Refinement::take(Frame frame) {
         m_shown = std::make_shared<const Frame>(std::move(measured));
         return m_shown;
     }
+    learn(frame, taken);
     if (m_shown && !frame.error)
         frame.error = errorOf(pictureError(m_shown->image, frame.image), frame.image, frame.plan,
                               "a first idea from a picture with twice the step");
@@ -68,6 +72,20 @@ std::shared_ptr<const Frame> Refinement::take(Frame frame) {
     if (taken == Stage::Asked && isKnown) m_stage = Stage::Done;
     m_shown = std::make_shared<const Frame>(std::move(frame));
     return m_shown;
+}
+
+void Refinement::learn(const Frame& frame, Stage taken) {
+    if (m_scene.mode == Mode::Slice) return;
+    if (!m_passingErrors) m_passingErrors.emplace();
+    m_passingErrors->byReduction = reductionErrors(frame.image);
+    if (!m_shown) return;
+    const double apart = pictureError(m_shown->image, frame.image).rmse;
+    if (taken == Stage::TwoSteps) m_twoFromFour = apart;
+    // The steps were multiples of what was known before; where another quality has been chosen since, they
+    // tell nothing of its multiples.
+    const bool isOfStated = !frame.chosen || statedQuality(m_scene.quality, frame.chosen) == m_stated;
+    if (taken == Stage::Asked && m_twoFromFour && isOfStated)
+        m_passingErrors->byStep = {0.0, apart, apart + *m_twoFromFour};
 }
 
 }  // namespace pellucid::renderer

@@ -42,6 +42,18 @@ QString errorText(const renderer::Frame& frame, bool isFinal) {
              askedText(frame.chosen, ErrorNorm::Max, error));
 }
 
+QString passingText(const RenderService::Reply& reply, std::optional<double> error) {
+    const renderer::Passing& passing = *reply.passing;
+    QStringList parts{passing.reduction == 1.0 ? tr("moving: full size")
+                                               : tr("moving: 1/%1 size").arg(passing.reduction)};
+    if (passing.stepTimes != 1.0) parts += tr("%1x step").arg(passing.stepTimes);
+    parts += tr("%1 ms").arg(reply.totalMs, 0, 'f', 0);
+    parts += !error         ? tr("error not measured yet")
+             : *error > 0.0 ? tr("about %1 grey levels RMS from the still picture").arg(greyLevels(*error))
+                            : tr("the still picture's settings");
+    return parts.join(QStringLiteral(", "));
+}
+
 QString settingsText(const renderer::Plan& plan, double smallestSpacingMm) {
     const Mode mode = plan.features.mode;
     const QString steps = tr("steps of %1 voxels").arg(plan.stepMm / smallestSpacingMm, 0, 'g', 2);
@@ -51,13 +63,15 @@ QString settingsText(const renderer::Plan& plan, double smallestSpacingMm) {
 
 }  // namespace
 
-QString costText(const RenderService::Reply& reply, double smallestSpacingMm) {
+QString costText(const RenderService::Reply& reply, double smallestSpacingMm,
+                 std::optional<double> passingError) {
     const renderer::Frame& frame = *reply.frame;
     const double ms = frame.cost.wallMs;
-    QStringList parts{tr("%1 x %2, %3 ms")
-                          .arg(frame.image.size.x)
-                          .arg(frame.image.size.y)
-                          .arg(ms, 0, 'f', ms < 10.0 ? 1 : 0)};
+    QStringList parts{reply.passing ? passingText(reply, passingError)
+                                    : tr("%1 x %2, %3 ms")
+                                          .arg(frame.image.size.x)
+                                          .arg(frame.image.size.y)
+                                          .arg(ms, 0, 'f', ms < 10.0 ? 1 : 0)};
     if (frame.error) parts += errorText(frame, reply.isFinal);
     if (frame.plan.features.mode != Mode::Slice) parts += settingsText(frame.plan, smallestSpacingMm);
     parts += tr("%1 MB").arg(static_cast<double>(frame.plan.totalBytes) / 1e6, 0, 'f', 1);

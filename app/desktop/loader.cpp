@@ -46,6 +46,14 @@ void Loader::run(Job& job, io::LoadOptions options) {
         }
         return !job.cancelled.load();
     };
+    options.coarse = [this, number = job.number](VolumePtr coarse) {
+        QMetaObject::invokeMethod(
+            this,
+            [this, number, coarse = std::move(coarse)] {
+                if (number == m_current) Q_EMIT previewed(coarse);
+            },
+            Qt::QueuedConnection);
+    };
     // Shared, because Qt copies what it queues.
     auto outcome =
         std::make_shared<Outcome>(Outcome{job.number, job.paths, openScan(job.paths, options), {}});

@@ -32,6 +32,8 @@ public:
 
 Q_SIGNALS:
     void progressed(double fraction, const QString& what);
+    /// While loading, of large series: a coarse copy to look at. What it becomes is loaded() or failed().
+    void previewed(pellucid::VolumePtr coarse);
     void loaded(pellucid::app::OpenedScan scan);
     void failed(pellucid::Error error, std::vector<std::filesystem::path> paths);
     /// Instead of failed(): the paths hold several series, and one must be chosen (LoadOptions::seriesUid).

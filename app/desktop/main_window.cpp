@@ -11,10 +11,12 @@
 #include <QLabel>
 #include <QMimeData>
 #include <QScrollArea>
+#include <QSettings>
 #include <QStatusBar>
 #include <QToolButton>
 #include <QUrl>
 
+#include "app/desktop/coarse_preview.h"
 #include "app/desktop/cost_text.h"
 #include "app/desktop/light_panel.h"
 #include "app/desktop/load_bar.h"
@@ -32,6 +34,13 @@ namespace pellucid::app {
 namespace {
 
 constexpr int kPanelWidth = 340;
+constexpr const char* kFrameTargetKey = "frameTargetMs";
+
+/// What the user has set, else what suits the device.
+double frameTargetMs(bool isSoftwareDevice) {
+    const double set = QSettings().value(kFrameTargetKey).toDouble();
+    return set > 0.0 ? set : renderer::defaultFrameTargetMs(isSoftwareDevice);
+}
 
 QString nameOf(const std::vector<std::filesystem::path>& paths) {
     if (paths.size() != 1) return MainWindow::tr("%n files", nullptr, static_cast<int>(paths.size()));
@@ -55,14 +64,25 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     connect(&m_document, &Document::undoChanged, this, &MainWindow::updateTitle);
     connect(&m_document, &Document::refused, this,
             [this](const QString& sentence) { m_messages->say(MessageBar::Kind::Error, sentence); });
-    connect(&m_service, &RenderService::started, this, [this](const QString& device, const QString& error) {
-        m_device = device;
-        if (!error.isEmpty()) m_messages->say(MessageBar::Kind::Error, error);
+    connect(&m_service, &RenderService::started, this,
+            [this](const QString& device, const QString& error, bool isSoftwareDevice) {
+                m_device = device;
+                setFrameTargetMs(frameTargetMs(isSoftwareDevice));
+                if (!error.isEmpty()) m_messages->say(MessageBar::Kind::Error, error);
+            });
+    connect(m_qualityPanel, &QualityPanel::frameTargetEdited, this, [this](double ms) {
+        QSettings().setValue(kFrameTargetKey, ms);
+        m_volumeView->setFrameTargetMs(ms);
     });
     updateTitle();
 }
 
 MainWindow::~MainWindow() = default;
+
+void MainWindow::setFrameTargetMs(double ms) {
+    m_volumeView->setFrameTargetMs(ms);
+    m_qualityPanel->setFrameTargetMs(ms);
+}
 
 void MainWindow::buildViews() {
     auto* central = new QWidget(this);
@@ -82,6 +102,7 @@ void MainWindow::buildViews() {
     column->addWidget(m_views, 1);
     m_views->hide();
     setCentralWidget(central);
+    m_preview = new CoarsePreview(m_service, central);
 
     for (const Plane plane : {Plane::Axial, Plane::Coronal, Plane::Sagittal})
         m_slices.push_back(new SliceView(plane, m_document, m_service, m_views));
@@ -149,8 +170,16 @@ void MainWindow::buildStatusBar() {
 void MainWindow::connectLoader() {
     connect(m_loadBar, &LoadBar::cancelAsked, &m_loader, &Loader::cancel);
     connect(&m_loader, &Loader::progressed, m_loadBar, &LoadBar::report);
+    connect(&m_loader, &Loader::previewed, this, [this](const VolumePtr& coarse) {
+        m_preview->begin(coarse, (m_views->isVisible() ? m_views : m_welcome)->geometry());
+    });
+    connect(m_volumeView, &ViewWidget::pictureShown, m_preview, [this] {
+        if (!m_loader.isLoading()) m_preview->end();
+    });
     connect(&m_loader, &Loader::loaded, this, &MainWindow::showScan);
     connect(&m_loader, &Loader::seriesFound, this, &MainWindow::askForSeries);
+    connect(&m_loader, &Loader::seriesFound, m_preview, &CoarsePreview::end);
+    connect(&m_loader, &Loader::failed, m_preview, &CoarsePreview::end);
     connect(&m_loader, &Loader::failed, this,
             [this](const Error& error, const std::vector<std::filesystem::path>& paths) {
                 m_loadBar->hide();
@@ -176,6 +205,8 @@ void MainWindow::showScan(OpenedScan scan) {
     rememberRecent(scan.paths);
     m_welcome->hide();
     m_views->show();
+    centralWidget()->layout()->activate();
+    m_preview->setGeometry(m_views->geometry());
     m_document.replace(std::move(scan));
     QStringList sentences;
     for (const Warning& warning : m_document.volume().info().warnings)
@@ -205,11 +236,14 @@ void MainWindow::showCost(const ViewWidget* view, const RenderService::Reply& re
     // The 3D view's numbers; a slice's only while it alone is shown.
     if (!reply.frame || (view != m_volumeView && m_volumeView->isVisible())) return;
     if (reply.frame->chosen) m_qualityPanel->setChosen(*reply.frame->chosen);
-    m_cost->setText(costText(reply, smallestSpacingMm(m_document.volume().grid())));
+    const std::optional<double> passingError =
+        reply.passing ? m_volumeView->interaction().error(*reply.passing) : std::nullopt;
+    m_cost->setText(costText(reply, smallestSpacingMm(m_document.volume().grid()), passingError));
     m_cost->setToolTip(
         tr("Size and time of the last picture; its estimated error (root mean square over all pixels, "
            "and the largest; 255 grey levels are the whole range); the distance of samples on a ray and "
-           "how they are summed; graphics memory of the plan. Drawn by %1.")
+           "how they are summed; graphics memory of the plan. While something moves: what is left out to "
+           "keep the frame time, and how far that was off when the view last stood still. Drawn by %1.")
             .arg(m_device));
     m_planButton->setEnabled(true);
 }

@@ -16,6 +16,7 @@ class QToolButton;
 
 namespace pellucid::app {
 
+class CoarsePreview;
 class LoadBar;
 class MessageBar;
 class QualityPanel;
@@ -62,6 +63,7 @@ private:
     void showCost(const ViewWidget* view, const RenderService::Reply& reply);
     void updateTitle();
     void applyWindowKey(int key);
+    void setFrameTargetMs(double ms);
 
     // main_window_actions.cpp: menus and what they do.
     void buildActions();
@@ -96,6 +98,7 @@ private:
     MessageBar* m_messages = nullptr;
     QualityPanel* m_qualityPanel = nullptr;
     LoadBar* m_loadBar = nullptr;
+    CoarsePreview* m_preview = nullptr;
     QLabel* m_welcome = nullptr;
     QWidget* m_views = nullptr;
     std::vector<ViewFrame*> m_frames;

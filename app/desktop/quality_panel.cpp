@@ -24,6 +24,7 @@ QColor shown(glm::dvec3 color) {
 
 constexpr int kByError = 0, kByStep = 1;  // Entries of m_unit.
 constexpr double kLeastLevels = 0.1, kMostLevels = 20.0;
+constexpr double kLeastFrameMs = 10.0, kMostFrameMs = 1000.0;
 constexpr double kLeastStep = 0.01, kMostStep = 16.0;  // Voxels; what is chosen for an error lies in here.
 
 QString textOf(Integrator integrator) {
@@ -67,6 +68,7 @@ QualityPanel::QualityPanel(Document& document, QWidget* parent)
       m_space(new QComboBox(this)),
       m_projection(new QComboBox(this)),
       m_fov(new NumberControl(5.0, 90.0, 0, this)),
+      m_frameTarget(new NumberControl(kLeastFrameMs, kMostFrameMs, 0, this)),
       m_background(new QPushButton(tr("Choose..."), this)),
       m_dither(new QCheckBox(tr("Dither to 8 bits"), this)) {
     setObjectName(QStringLiteral("qualityPanel"));
@@ -79,6 +81,7 @@ QualityPanel::QualityPanel(Document& document, QWidget* parent)
     m_space->setObjectName(QStringLiteral("space"));
     m_projection->setObjectName(QStringLiteral("projection"));
     m_fov->setObjectName(QStringLiteral("fov"));
+    m_frameTarget->setObjectName(QStringLiteral("frameTarget"));
     m_background->setObjectName(QStringLiteral("background"));
     m_dither->setObjectName(QStringLiteral("dither"));
     build();
@@ -99,6 +102,8 @@ void QualityPanel::build() {
     m_projection->addItems({tr("Perspective"), tr("Orthographic")});
     m_tolerance->setLogarithmic();
     m_step->setLogarithmic();
+    m_frameTarget->setLogarithmic();
+    m_frameTarget->setSuffix(tr(" ms"));
     m_fov->setSuffix(QString(QChar(0xb0)));
     m_filter->setToolTip(tr("How values between voxels are found, in slices and in 3D."));
     m_unit->setToolTip(
@@ -112,6 +117,9 @@ void QualityPanel::build() {
            "since all pixels are measured."));
     m_step->setToolTip(tr("Distance of two samples on a ray, in units of the smallest voxel spacing."));
     m_integrator->setToolTip(tr("How the light between two samples is summed (see equations.md)."));
+    m_frameTarget->setToolTip(
+        tr("How long a picture may take while something moves. Size and steps follow from it; the brightness "
+           "stays. Kept for all scans."));
     m_space->setToolTip(
         tr("As shown: colours are blended the way they look, as most programs do. Linear light: as light "
            "adds up."));
@@ -121,6 +129,7 @@ void QualityPanel::build() {
     m_form->addRow(tr("Measured"), m_norm);
     m_form->addRow(tr("Step (voxels)"), m_step);
     m_form->addRow(tr("Integrator"), m_integrator);
+    m_form->addRow(tr("While moving"), m_frameTarget);
     m_form->addRow(tr("Blending"), m_space);
     m_form->addRow(tr("Projection"), m_projection);
     m_form->addRow(tr("View angle"), m_fov);
@@ -171,8 +180,13 @@ void QualityPanel::connectQuality() {
         m_document.change("Integrator: " + m_integrator->itemText(index).toStdString(), {},
                           [&](Scene& scene) { scene.quality.integrator = static_cast<Integrator>(index); });
     });
+    connect(m_frameTarget, &NumberControl::edited, this, &QualityPanel::frameTargetEdited);
     connect(m_tolerance, &NumberControl::editEnded, &m_document, &Document::endGesture);
     connect(m_step, &NumberControl::editEnded, &m_document, &Document::endGesture);
+}
+
+void QualityPanel::setFrameTargetMs(double ms) {
+    m_frameTarget->setValue(ms);
 }
 
 void QualityPanel::chooseUnit(int index) {

@@ -25,6 +25,12 @@ public:
 
     /// What the renderer chose for the error asked for. Quality by step starts from it.
     void setChosen(const Quality& chosen) { m_chosen = chosen; }
+    /// Shows how long a picture may take while something moves.
+    void setFrameTargetMs(double ms);
+
+Q_SIGNALS:
+    /// The user's wish; of the program, not of the scene.
+    void frameTargetEdited(double ms);
 
 private:
     void build();
@@ -46,6 +52,7 @@ private:
     QComboBox* m_space;
     QComboBox* m_projection;
     NumberControl* m_fov;
+    NumberControl* m_frameTarget;
     QPushButton* m_background;
     QCheckBox* m_dither;
     std::optional<Quality> m_chosen;

@@ -3,17 +3,21 @@
 #include "app/desktop/render_service.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
+#include "renderer/resize.h"
 #include "scene/image.h"
 
 namespace pellucid::app {
 
 namespace {
 
-QImage pictureOf(const ImageF& image, const Scene& scene) {
-    const bool transparent = scene.picture.transparent;
-    const Image8 bytes = quantise(image, transparent, scene.quality.dither);
+QImage pictureOf(const ImageF& image, const RenderService::Request& request) {
+    const bool transparent = request.scene.picture.transparent;
+    const glm::ivec2 size = request.shownSize.value_or(image.size);
+    const Image8 bytes = quantise(size == image.size ? image : renderer::resized(image, size), transparent,
+                                  request.scene.quality.dither);
     const auto format = bytes.channels == 4 ? QImage::Format_RGBA8888 : QImage::Format_RGB888;
     const QImage shared(bytes.bytes.data(), bytes.size.x, bytes.size.y, bytes.size.x * bytes.channels,
                         format);
@@ -42,7 +46,7 @@ std::uint64_t RenderService::request(Request request) {
     }
     const int channel = request.channel;
     std::optional<renderer::Refinement> refinement;
-    if (request.refines) refinement.emplace(request.scene, request.chosen);
+    if (request.refines) refinement.emplace(request.scene, request.chosen, request.refinesFrom);
     m_waiting[channel] =
         std::make_unique<Job>(Job{number, std::move(request), std::move(refinement), nullptr, {}});
     m_wake.notify_one();
@@ -59,22 +63,21 @@ void RenderService::cancel(int channel) {
 
 void RenderService::work(const std::stop_token& stop) {
     auto made = renderer::Renderer::headless();
-    QString device, error;
-    if (made)
-        device = QString::fromStdString(made->deviceInfo().renderer);
-    else
-        error = QString::fromStdString(made.error().text());
+    const auto info = made ? made->deviceInfo() : renderer::Renderer::DeviceInfo{};
+    const QString error = made ? QString{} : QString::fromStdString(made.error().text());
     QMetaObject::invokeMethod(
-        this, [this, device, error] { Q_EMIT started(device, error); }, Qt::QueuedConnection);
+        this,
+        [this, info, error] { Q_EMIT started(QString::fromStdString(info.renderer), error, info.software); },
+        Qt::QueuedConnection);
 
     while (auto job = next(stop)) {
         if (made) {
             draw(*made, std::move(job), stop);
             continue;
         }
-        const Reply reply{job->request.channel, job->number, job->request.priority, nullptr, {},
-                          made.error()};
-        if (release(std::move(job), false, true)) post(reply);
+        Reply reply = replyTo(*job);
+        reply.error = made.error();
+        if (release(std::move(job), false, true)) post(std::move(reply));
     }
 }
 
@@ -93,8 +96,18 @@ std::unique_ptr<RenderService::Job> RenderService::next(const std::stop_token& s
     return job;
 }
 
+RenderService::Reply RenderService::replyTo(const Job& job) {
+    Reply reply;
+    reply.channel = job.request.channel;
+    reply.number = job.number;
+    reply.priority = job.request.priority;
+    reply.passing = job.request.passing;
+    return reply;
+}
+
 void RenderService::draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, const std::stop_token& stop) {
     const Request& request = job->request;
+    const auto start = std::chrono::steady_clock::now();
     renderer::RenderOptions options;
     options.allowPreview = request.priority == Priority::Interactive;
     options.progress = [this, &stop, priority = request.priority](double fraction, std::string_view) {
@@ -103,7 +116,7 @@ void RenderService::draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, c
     auto frame =
         drawer.render(job->refinement ? job->refinement->next() : request.scene, request.volumes, options);
     const bool wasStopped = !frame && frame.error().code == ErrorCode::Cancelled;
-    Reply reply{request.channel, job->number, request.priority, nullptr, {}, std::nullopt};
+    Reply reply = replyTo(*job);
     if (!frame && !wasStopped && job->refinement && job->refinement->isMeasuring()) {
         job->refinement->giveUp();
         reply.frame = job->shown;
@@ -114,10 +127,13 @@ void RenderService::draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, c
                                         : std::make_shared<const renderer::Frame>(std::move(*frame)));
         // The last step of a refinement measures a picture that is there already.
         if (!before || before->image != job->shown->image)
-            job->picture = pictureOf(job->shown->image, request.scene);
+            job->picture = pictureOf(job->shown->image, request);
         reply.frame = job->shown;
         reply.picture = job->picture;
         reply.isFinal = !job->refinement || job->refinement->isDone();
+        if (job->refinement) reply.passingErrors = job->refinement->passingErrors();
+        reply.totalMs =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     } else {
         reply.error = frame.error();
     }

@@ -7,6 +7,7 @@
 #include <QString>
 #include <condition_variable>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "renderer/interaction.h"
 #include "renderer/refinement.h"
 #include "renderer/renderer.h"
 #include "scene/scene.h"
@@ -40,6 +42,11 @@ public:
         /// picture is answered, and slices and interactive pictures are drawn in between.
         bool refines = false;
         std::optional<Quality> chosen{};  ///< For Refinement.
+        double refinesFrom = 4.0;         ///< For Refinement.
+        /// For a picture in passing: what it leaves out (comes back with the reply), and the size that its
+        /// picture is enlarged to.
+        std::optional<renderer::Passing> passing{};
+        std::optional<glm::ivec2> shownSize{};
     };
 
     /// What became of a request: a frame with its picture, or an error. A request that a newer one replaced
@@ -49,9 +56,14 @@ public:
         std::uint64_t number = 0;  ///< As request() gave it.
         Priority priority = Priority::Full;
         std::shared_ptr<const renderer::Frame> frame;
-        QImage picture;  ///< The frame through quantise(), RGB888, or RGBA8888 when the scene is transparent.
+        /// The frame, enlarged where asked, through quantise(): RGB888, or RGBA8888 when the scene is
+        /// transparent.
+        QImage picture;
         std::optional<Error> error;
-        bool isFinal = true;  ///< False while further replies to a request that refines are to come.
+        bool isFinal = true;   ///< False while further replies to a request that refines are to come.
+        double totalMs = 0.0;  ///< From the start of the last drawing until the picture was there.
+        std::optional<renderer::Passing> passing;              ///< Of the request.
+        std::optional<renderer::PassingErrors> passingErrors;  ///< From a refinement.
     };
 
     explicit RenderService(QObject* parent = nullptr);
@@ -66,7 +78,7 @@ public:
 Q_SIGNALS:
     /// Once, after the start: the device, or why there is none (each request is then answered with that
     /// error).
-    void started(const QString& device, const QString& error);
+    void started(const QString& device, const QString& error, bool isSoftwareDevice);
     void replied(const pellucid::app::RenderService::Reply& reply);
     /// Of a running export.
     void exportProgressed(double fraction);
@@ -87,6 +99,7 @@ private:
         bool comeBack = false;  ///< Interrupted by something shorter: to be drawn again.
     };
 
+    static Reply replyTo(const Job& job);
     void work(const std::stop_token& stop);
     /// Waits for work; null when it is time to end.
     std::unique_ptr<Job> next(const std::stop_token& stop);

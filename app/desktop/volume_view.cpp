@@ -11,17 +11,15 @@
 #include <numbers>
 
 #include "app/desktop/theme.h"
+#include "renderer/resize.h"
 
 namespace pellucid::app {
 
 namespace {
 
-constexpr int kChannel = 3;              // After the three planes.
-constexpr double kInteractiveMs = 80.0;  // A dozen pictures a second: a drag still feels attached.
-constexpr int kRestMs = 150;             // Longer than the pauses within a drag.
+constexpr int kChannel = 3;   // After the three planes.
+constexpr int kRestMs = 150;  // Longer than the pauses within a drag.
 constexpr int kWheelEndMs = 500;
-constexpr double kFirstScale = 0.25;  // Until something has been measured.
-constexpr double kMinScale = 0.1;
 constexpr double kZoomDragPx = 150.0;  // As in the slice views.
 constexpr double kWheelZoom = 1.15;
 constexpr double kMinZoom = 0.02, kMaxZoom = 200.0;
@@ -38,12 +36,13 @@ VolumeView::VolumeView(Document& document, RenderService& service, QWidget* pare
             ask({.scene = shownScene(),
                  .priority = RenderService::Priority::Full,
                  .refines = true,
-                 .chosen = m_chosen});
+                 .chosen = m_chosen,
+                 .refinesFrom = m_interaction.refinesFrom(m_shownInPassing)});
     });
     connect(&m_endWheel, &QTimer::timeout, &document, &Document::endGesture);
     connect(&document, &Document::replaced, this, [this] {
         m_askedScene = {};
-        m_msPerPixel = 0.0;
+        m_interaction = renderer::InteractionControl(m_interaction.targetMs());
         m_chosen.reset();
         m_isFinal = false;
     });
@@ -54,32 +53,28 @@ Scene VolumeView::shownScene() const {
     return volumeScene(document().scene(), pixelSize());
 }
 
-glm::ivec2 VolumeView::interactiveSize() const {
-    const glm::ivec2 full = pixelSize();
-    const double pixels = static_cast<double>(full.x) * full.y;
-    const double wanted =
-        m_msPerPixel > 0.0 ? std::sqrt(kInteractiveMs / (m_msPerPixel * pixels)) : kFirstScale;
-    const double scale = std::clamp(wanted, kMinScale, 1.0);
-    return {std::max(1, static_cast<int>(std::lround(full.x * scale))),
-            std::max(1, static_cast<int>(std::lround(full.y * scale)))};
-}
-
 void VolumeView::refresh() {
-    update();
     if (document().isEmpty() || !isVisible()) return;
     Scene scene = shownScene();
-    if (scene == m_askedScene) return;
+    // What is painted over a picture changes with it; painting at every move of a mouse would take time from
+    // drawing.
+    if (scene == m_askedScene) return update();
     m_askedScene = scene;
     m_isFinal = false;
-    scene.picture.size = interactiveSize();
-    scene.quality = renderer::passingQuality(scene.quality, m_chosen);
+    const glm::ivec2 full = scene.picture.size;
+    const renderer::Passing passing = m_interaction.next(static_cast<double>(full.x) * full.y);
+    scene.picture.size = renderer::reducedSize(full, passing.reduction);
+    scene.quality = renderer::passingQuality(scene.quality, m_chosen, passing.stepTimes);
     // The picture's shape decides how the volume is framed; the small picture's is rounded, so it gets the
     // full one's.
     scene.camera.pose =
         resolvedPose(scene.camera, document().volume().grid(), static_cast<double>(width()) / height());
     m_refine.stop();
     m_sinceChange.start();
-    ask({.scene = std::move(scene), .priority = RenderService::Priority::Interactive});
+    ask({.scene = std::move(scene),
+         .priority = RenderService::Priority::Interactive,
+         .passing = passing,
+         .shownSize = full});
 }
 
 void VolumeView::received(const RenderService::Reply& reply) {
@@ -87,10 +82,12 @@ void VolumeView::received(const RenderService::Reply& reply) {
     m_isFinal = reply.error || (isFull && reply.isFinal);
     if (!reply.frame) return;
     if (reply.frame->chosen) m_chosen = reply.frame->chosen;
-    if (isFull) return;
+    if (reply.passingErrors) m_interaction.learned(*reply.passingErrors);
+    if (!reply.passing) return;
     const glm::ivec2 size = reply.frame->image.size;
-    const renderer::FrameCost& cost = reply.frame->cost;
-    m_msPerPixel = (cost.wallMs - cost.prepareMs) / (static_cast<double>(size.x) * size.y);
+    const double drawMs = reply.frame->cost.gpuMs;
+    m_interaction.took(*reply.passing, static_cast<double>(size.x) * size.y, drawMs, reply.totalMs - drawMs);
+    m_shownInPassing = *reply.passing;
     // The full picture is asked for only now: as the newer request it would have taken the small one's place.
     if (isSettled()) m_refine.start(std::max(0, kRestMs - static_cast<int>(m_sinceChange.elapsed())));
 }

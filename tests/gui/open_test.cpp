@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QTemporaryDir>
 #include <QUrl>
+#include <cmath>
 #include <fstream>
 
 #include "io/scene_file.h"
@@ -153,6 +154,38 @@ TEST_F(OpenTest, SeveralSeriesAreOffered) {
     Q_EMIT list->itemDoubleClicked(list->item(chosen));
     ASSERT_TRUE(waitLoaded());
     EXPECT_EQ(document().volume().grid().size, glm::ivec3(7, 5, 4));
+}
+
+TEST_F(OpenTest, ALargeSeriesIsSeenBeforeItIsThere) {
+    SyntheticSeries series;
+    series.size = {512, 512};
+    series.slices = 63;
+    series.value = [](int i, int j, int k) {
+        return std::hypot(i - 256, j - 256, 4 * (k - 32)) < 200.0 ? 1500 : 0;
+    };
+    writeSeries(series, folder());
+    auto* preview = child<QWidget>("coarsePreview");
+    int previews = 0;
+    bool wasSeen = false;
+    QImage seen;
+    QObject::connect(&window.loader(), &app::Loader::previewed, [&] {
+        ++previews;
+        EXPECT_EQ(document().volume().grid().size, smallVolume()->grid().size)
+            << "the document is not touched";
+    });
+    QObject::connect(&window.renderService(), &app::RenderService::replied, [&] {
+        if (!preview->isVisible() || wasSeen) return;
+        wasSeen = true;
+        seen = preview->grab().toImage();
+    });
+    window.openPaths({folder()});
+    ASSERT_TRUE(waitLoaded());
+    EXPECT_EQ(previews, 1);
+    EXPECT_TRUE(waitFor([&] { return volumeView()->isSettled() && !preview->isVisible(); }));
+    EXPECT_EQ(document().volume().grid().size, glm::ivec3(512, 512, 63));
+    if (!wasSeen) return;  // The whole was faster.
+    EXPECT_GT(seen.pixelColor(seen.rect().center()).value(), 40);
+    EXPECT_LT(seen.pixelColor(3, seen.height() - 4).value(), 10);
 }
 
 }  // namespace

@@ -280,5 +280,53 @@ TEST(DicomSeries, ReportsProgressAndCanBeCancelled) {
     }
 }
 
+TEST(DicomSeries, ALargeSeriesShowsACoarseCopyFirst) {
+    SyntheticSeries series;
+    series.size = {512, 510};
+    series.slices = 63;  // 16.4 million voxels.
+    series.value = [](int i, int j, int k) { return (7 * i + 13 * j + 31 * k) % 4096; };
+    const TemporaryFolder folder;
+    writeSeries(series, folder.path());
+    std::vector<VolumePtr> coarse;
+    std::vector<double> fractions;
+    LoadOptions options;
+    options.coarse = [&](VolumePtr copy) {
+        coarse.push_back(std::move(copy));
+        EXPECT_LT(fractions.back(), 0.6) << "most slices are not decoded yet";
+    };
+    options.progress = [&](double fraction, std::string_view) {
+        EXPECT_TRUE(fractions.empty() || fraction >= fractions.back());
+        fractions.push_back(fraction);
+        return true;
+    };
+    const auto whole = loadDicom({folder.path()}, options);
+    ASSERT_TRUE(whole) << whole.error().text();
+    EXPECT_EQ(fractions.back(), 1.0);
+    ASSERT_EQ(coarse.size(), 1u);
+    const Volume& copy = *coarse.front();
+    ASSERT_EQ(copy.grid().size, glm::ivec3(128, 128, 16));
+    EXPECT_EQ(copy.mapping(), (*whole)->mapping());
+    EXPECT_EQ(copy.info().modality, (*whole)->info().modality);
+    for (const glm::ivec3 index : {glm::ivec3(0, 0, 0), {127, 127, 15}, {3, 77, 9}, {126, 0, 1}}) {
+        EXPECT_EQ(copy.stored(index), (*whole)->stored(4 * index));
+        EXPECT_LT(glm::distance(transformPoint(copy.grid().patientFromIndex, glm::dvec3(index)),
+                                transformPoint((*whole)->grid().patientFromIndex, glm::dvec3(4 * index))),
+                  1e-9);
+    }
+    // The copy is made on the way: the whole is what it is without one. Every 11th voxel along each axis.
+    for (int k = 0; k < series.slices; k += 11)
+        for (int j = 0; j < series.size.y; j += 11)
+            for (int i = 0; i < series.size.x; i += 11)
+                ASSERT_EQ((*whole)->stored({i, j, k}), static_cast<double>(series.value(i, j, k)));
+}
+
+TEST(DicomSeries, ASmallSeriesIsThereBeforeACopyWouldBe) {
+    const TemporaryFolder folder;
+    writeSeries(SyntheticSeries{}, folder.path());
+    LoadOptions options;
+    options.coarse = [](const VolumePtr&) { ADD_FAILURE(); };
+    EXPECT_TRUE(loadDicom({folder.path()}, options));
+}
+
 }  // namespace
 }  // namespace pellucid::io

@@ -23,7 +23,7 @@ const std::map<std::string, Names, std::less<>>& arrows() {
         {"accuracy", {"scene", "renderer"}},
         {"tfeditor", {"scene"}},
         {"app", {"scene", "io", "segmentation", "renderer", "accuracy", "tfeditor"}},
-        {"bench", {"scene", "io", "segmentation", "renderer", "accuracy"}},
+        {"bench", {"scene", "io", "segmentation", "renderer", "accuracy", "app"}},
         {"tests", {"scene", "io", "segmentation", "renderer", "accuracy", "tfeditor", "app", "bench"}},
     };
     return table;
@@ -49,7 +49,7 @@ bool isGl(std::string_view header) {
 
 const std::vector<Foreign>& foreigners() {
     static const std::vector<Foreign> table = {
-        {"Qt", isQt, {"app/desktop/", "tfeditor/", "tests/gui/"}},
+        {"Qt", isQt, {"app/desktop/", "tfeditor/", "bench/", "tests/gui/"}},
         {"OpenGL", isGl, {"renderer/gpu/", "renderer/resources/", "renderer/passes/", "tests/gl/"}},
         {"VTK",
          [](std::string_view header) { return header.starts_with("vtk"); },
@@ -171,7 +171,8 @@ Findings checkPrivateHeaders(const std::vector<SourceFile>& files) {
     }
     Findings findings;
     for (const SourceFile& file : files) {
-        if (roomOf(file.name) == "tests") continue;
+        // Nothing is built upon these two.
+        if (roomOf(file.name) == "tests" || roomOf(file.name) == "bench") continue;
         for (const Include& include : includesOf(file)) {
             const auto found = privateHeaders.find(include.header);
             if (found == privateHeaders.end() || roomOf(include.header) == roomOf(file.name)) continue;
