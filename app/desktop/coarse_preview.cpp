@@ -27,8 +27,8 @@ CoarsePreview::CoarsePreview(RenderService& service, QWidget* parent) : QWidget(
 
 void CoarsePreview::begin(const VolumePtr& coarse, const QRect& place) {
     setGeometry(place);
-    const glm::ivec2 size = glm::max(glm::ivec2(glm::dvec2(place.width(), place.height()) * devicePixelRatioF()),
-                                     glm::ivec2(1));
+    const glm::ivec2 size =
+        glm::max(glm::ivec2(glm::dvec2(place.width(), place.height()) * devicePixelRatioF()), glm::ivec2(1));
     Scene scene = completed(Scene{}, {coarse});
     scene.picture.size = renderer::reducedSize(size, kReduction);
     scene.quality.stepVoxels = kStepVoxels;

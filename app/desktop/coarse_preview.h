@@ -9,8 +9,8 @@
 
 namespace pellucid::app {
 
-/// A picture of a coarse copy of what is being opened, over the views, until the first picture of the whole is
-/// there. It belongs to no document: whatever becomes of the opening, what was shown before is untouched.
+/// A picture of a coarse copy of what is being opened, over the views, until the first picture of the whole
+/// is there. It belongs to no document: whatever becomes of the opening, what was shown before is untouched.
 class CoarsePreview : public QWidget {
     Q_OBJECT
 

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "scene/check.h"
+
 namespace pellucid::renderer {
 
 namespace {
@@ -37,20 +39,19 @@ void setUniform(GLuint program, GLint location, const UniformValue& value) {
         value);
 }
 
-/// Copies the target's rows (bottom first) into the picture (top first); `fromBottom` is the band's first row
-/// in the picture.
-void readBand(GLuint texture, glm::ivec2 band, glm::ivec2 targetSize, int fromBottom, ImageF& image) {
-    std::vector<glm::vec4> rows(static_cast<std::size_t>(targetSize.x) *
-                                static_cast<std::size_t>(targetSize.y));
+/// Moves the target's rows (bottom first) into the picture (top first); `fromBottom` is the band's first row
+/// in the picture. Turned in place: a second buffer could take as much as the picture. Precondition: the
+/// target is as wide as the picture.
+void readBand(GLuint texture, glm::ivec2 band, int fromBottom, ImageF& image) {
+    PELLUCID_CHECK_EQ(band.x, image.size.x);
+    glm::vec4* top = &image.at(0, image.size.y - fromBottom - band.y);
+    const std::ptrdiff_t width = band.x;
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(rows.size() * sizeof(glm::vec4)),
-                      rows.data());
-    for (int row = 0; row < band.y; ++row) {
-        const auto from = rows.begin() + static_cast<std::ptrdiff_t>(row) * targetSize.x;
-        std::copy_n(from, band.x,
-                    image.pixels.begin() +
-                        static_cast<std::ptrdiff_t>(image.size.y - 1 - fromBottom - row) * image.size.x);
-    }
+    glGetTextureSubImage(texture, 0, 0, 0, 0, band.x, band.y, 1, GL_RGBA, GL_FLOAT,
+                         static_cast<GLsizei>(static_cast<std::size_t>(width * band.y) * sizeof(glm::vec4)),
+                         top);
+    for (int row = 0; row < band.y / 2; ++row)
+        std::swap_ranges(top + row * width, top + (row + 1) * width, top + (band.y - 1 - row) * width);
 }
 
 double fetchesPerValue(Filter filter) {
@@ -167,7 +168,7 @@ Result<ImageF> RaycastPass::drawEveryPixel(const RaycastInputs& inputs, glm::ive
                 return fail(ErrorCode::Cancelled, "the drawing was cancelled");
             budget.took(static_cast<double>(tile.size.x) * tile.size.y, drawTiles({&tile, 1}, cost));
         }
-        readBand(inputs.target->color.id(), band, targetSize, fromBottom, image);
+        readBand(inputs.target->color.id(), band, fromBottom, image);
     }
     return image;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/plan/blocks.h"
 #include "renderer/plan/gradients.h"
 #include "renderer/plan/importance.h"
 #include "renderer/plan/preintegration.h"
@@ -148,6 +149,20 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
                          kBlockEdge, plan.stepMm, plan.longestStepMm)});
 }
 
+void addMainMemory(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
+    // Least and largest value of each block in 16 bits, and while a function's occupancy is made a byte each
+    // for what it is and for the leaps.
+    constexpr std::uint64_t kBytesPerBlock = 4 + 2;
+    // Floats of the frame, and the 8 bits that are shown or written.
+    constexpr std::uint64_t kBytesPerPixel = 16 + 3;
+    plan.volumeBytes = cellCount(facts.grid.size) * bytesPerComponent(facts.type) *
+                       static_cast<std::uint64_t>(facts.components);
+    plan.mainBytes = plan.volumeBytes + kBytesPerPixel * static_cast<std::uint64_t>(scene.picture.size.x) *
+                                            static_cast<std::uint64_t>(scene.picture.size.y);
+    if (plan.features.skipping != Skipping::None)
+        plan.mainBytes += kBytesPerBlock * cellCount(blockCount(facts.grid.size));
+}
+
 }  // namespace
 
 std::string toleranceText(const Quality& quality) {
@@ -157,8 +172,12 @@ std::string toleranceText(const Quality& quality) {
 
 VolumeFacts factsOf(const Volume& volume, int component) {
     const ValueRange stored = volume.storedRange(component);
-    return {volume.grid(), volume.type(), volume.physicalRange(component), volume.mapping().slope < 0.0,
-            stored.hi - stored.lo};
+    return {volume.grid(),
+            volume.type(),
+            volume.physicalRange(component),
+            volume.mapping().slope < 0.0,
+            stored.hi - stored.lo,
+            volume.components()};
 }
 
 double turnsPerSample(const Plan& plan) {
@@ -249,6 +268,7 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     for (const auto& resource : plan.resources) plan.totalBytes += resource.bytes;
     planSkipping(plan, scene, facts, limits);
     if (auto fine = planGradients(plan, scene, facts, limits); !fine) return tl::unexpected(fine.error());
+    addMainMemory(plan, scene, facts);
     return plan;
 }
 

@@ -19,6 +19,7 @@ struct VolumeFacts {
     ValueRange physicalRange;
     bool descending = false;        ///< Physical values fall where stored ones rise (negative slope).
     double storedExtent = 65535.0;  ///< Largest minus smallest stored value, or more.
+    int components = 1;             ///< Values of a voxel in main memory; one of them is drawn.
     bool operator==(const VolumeFacts&) const = default;
 };
 [[nodiscard]] VolumeFacts factsOf(const Volume& volume, int component);
@@ -85,6 +86,10 @@ struct Plan {
     double samplesPerRay = 0.0;          ///< Upper bound: volume diagonal / step.
     double earlyTerminationBound = 0.0;  ///< Error bound in display units; 0 when rays never stop early.
     std::uint64_t totalBytes = 0;        ///< GPU memory of passes and resources.
+    /// Main memory at the most: the volume as stored, what is known of its blocks, the picture. Where the
+    /// driver draws on the processor, totalBytes lie there too.
+    std::uint64_t mainBytes = 0;
+    std::uint64_t volumeBytes = 0;  ///< Of mainBytes, the volume as stored.
     bool operator==(const Plan&) const = default;
 };
 

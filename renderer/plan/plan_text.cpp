@@ -36,6 +36,11 @@ std::string planText(const Plan& plan) {
         text += fmt::format("early termination changes a pixel by at most {:.2g} ({:.2f} grey levels)\n",
                             plan.earlyTerminationBound, plan.earlyTerminationBound * 255.0);
     text += fmt::format("GPU memory {}\n", sizeText(plan.totalBytes));
+    text += fmt::format(
+        "main memory {} beside the program and its driver; where the driver draws on the processor, the GPU "
+        "memory too: {}, {:.2f} times the stored volume\n",
+        sizeText(plan.mainBytes), sizeText(plan.mainBytes + plan.totalBytes),
+        static_cast<double>(plan.mainBytes + plan.totalBytes) / static_cast<double>(plan.volumeBytes));
     return text;
 }
 
@@ -64,6 +69,8 @@ nlohmann::ordered_json planJson(const Plan& plan) {
     json["earlyTerminationBound"] = plan.earlyTerminationBound;
     json["tableWorstError"] = plan.table.worstError;
     json["totalBytes"] = plan.totalBytes;
+    json["mainBytes"] = plan.mainBytes;
+    json["volumeBytes"] = plan.volumeBytes;
     return json;
 }
 

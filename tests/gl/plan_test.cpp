@@ -160,6 +160,8 @@ TEST(Plan, TextAndJsonNameEveryRow) {
     for (const auto& row : plan.leftOut) EXPECT_THAT(text, testing::HasSubstr(row.reason));
     EXPECT_EQ(json["stages"].size(), plan.stages.size());
     EXPECT_EQ(json["totalBytes"], plan.totalBytes);
+    EXPECT_EQ(json["mainBytes"], plan.mainBytes);
+    EXPECT_THAT(text, testing::HasSubstr("times the stored volume"));
 }
 
 }  // namespace

@@ -54,7 +54,9 @@ const std::vector<Foreign>& foreigners() {
         {"VTK",
          [](std::string_view header) { return header.starts_with("vtk"); },
          {"io/", "segmentation/", "accuracy/", "bench/", "tests/io/", "tests/accuracy/"}},
-        {"DCMTK", [](std::string_view header) { return header.starts_with("dcmtk/"); }, {"io/", "tests/io/"}},
+        {"DCMTK",
+         [](std::string_view header) { return header.starts_with("dcmtk/"); },
+         {"io/", "bench/", "tests/io/"}},
         {"CLI11", [](std::string_view header) { return header.starts_with("CLI/"); }, {"app/cli/", "bench/"}},
     };
     return table;
