@@ -45,9 +45,6 @@ double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// What a picture in passing may spend on gradients for those after it, which are drawn faster with them.
-constexpr double kFieldMsAFrame = 50.0;
-
 /// True when everything this scene's mode uses is set: finding defaults reads voxels, which an interactive
 /// frame must not pay for.
 bool isComplete(const Scene& scene) {
@@ -169,7 +166,8 @@ Result<const FieldTexture*> Renderer::State::fieldFor(Plan& plan, const VolumePt
         dropGradientTexture(plan, field.error().text());
         return nullptr;
     }
-    const double budgetMs = options.allowPreview ? kFieldMsAFrame : std::numeric_limits<double>::infinity();
+    const double budgetMs =
+        options.allowPreview ? options.gradientMs : std::numeric_limits<double>::infinity();
     if (auto made = makeField(**field, *volume, component, budgetMs, options.progress); !made)
         return tl::unexpected(made.error());
     if ((*field)->isComplete()) return *field;

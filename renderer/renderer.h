@@ -21,6 +21,9 @@ struct RenderOptions {
     int estimateReduction = 2;
     /// A pre-integration table may be a quick one while the exact one is made (Frame::preview).
     bool allowPreview = false;
+    /// With allowPreview: what a picture may spend on the texture of gradients, for those after it; until
+    /// that is complete they are computed on the fly.
+    double gradientMs = 50.0;
     /// Tiles are sized so that one draw takes about this long; 30 is the stated limit.
     double tileTargetMs = 20.0;
 };

@@ -54,33 +54,6 @@ TEST(Plan, ALightAddsExactlyGradientShadeAndLights) {
     }
 }
 
-TEST(Plan, GradientsComeFromATextureWhereThatIsExactAndFits) {
-    const auto fieldBytes = [](const Plan& plan) {
-        for (const auto& row : plan.resources)
-            if (row.name == "values and gradients") return row.bytes;
-        return std::uint64_t{0};
-    };
-    Scene scene = rampScene();
-    EXPECT_EQ(fieldBytes(planOf(scene)), 0u);  // unlit
-    scene.lights->push_back(Light{});
-    // A voxel more on every side, four times 16 bits.
-    EXPECT_EQ(fieldBytes(planOf(scene)), 514ull * 514 * 302 * 8);
-    EXPECT_EQ(planOf(scene).features.gradients, GradientSource::Texture);
-    scene.volumes.front().filter = Filter::CatmullRom;
-    EXPECT_EQ(fieldBytes(planOf(scene)), 0u);
-    scene.quality.gradients = Gradients::Texture;
-    EXPECT_EQ(makePlan(scene, {kFacts}).error().code, ErrorCode::Unsupported);
-    scene.volumes.front().filter = Filter::Trilinear;
-    DeviceLimits small;
-    small.maxFieldBytes = 100 << 20;
-    EXPECT_EQ(makePlan(scene, {kFacts}, small).error().code, ErrorCode::TooLarge);
-    scene.quality.gradients = Gradients::Auto;
-    const auto without = makePlan(scene, {kFacts}, small);
-    ASSERT_TRUE(without);
-    EXPECT_EQ(fieldBytes(*without), 0u);
-    EXPECT_EQ(without->features.gradients, GradientSource::OnTheFly);
-}
-
 TEST(Plan, BytesAreThoseOfTheVolumeAndThePicture) {
     const Plan plan = planOf(rampScene());
     EXPECT_EQ(plan.resources[0].bytes, 512ull * 512 * 300 * 2);  // int16 as R16

@@ -1,5 +1,5 @@
 // Central differences of the voxels, made once and interpolated: of a trilinear field they are those of the field itself over one voxel to
-// each side (equation 24 of docs/equations.md), for one fetch in place of six. The value stands beside them.
+// each side (equation 25 of docs/equations.md), for one fetch in place of six. The value stands beside them.
 uniform sampler3D fieldTexture;      // differences along the index axes, value; one voxel more on every side
 uniform vec3 fieldScale;             // coordinates in fieldTexture = texture coordinates * scale + offset
 uniform vec3 fieldOffset;
