@@ -113,6 +113,8 @@ Passing InteractionControl::next(double pixels) {
 }
 
 double InteractionControl::refinesFrom(const Passing& shown) const {
+    // What steps cost in error is learned from pictures with the longer ones.
+    if (!m_errors || !m_errors->byStep) return kStepTimes.back();
     for (std::size_t step = kStepTimes.size() - 1; step > 0; --step) {
         const Passing full{1.0, kStepTimes[step]};
         if (rank(full) < rank(shown)) return kStepTimes[step];

@@ -59,7 +59,8 @@ public:
     [[nodiscard]] std::optional<double> error(const Passing& passing) const;
     /// Time that a picture of `pixels` pixels is expected to take so; nothing before the first measurement.
     [[nodiscard]] std::optional<double> expectedMs(const Passing& passing, double pixels) const;
-    /// The longest steps (one of kStepTimes) with which a picture of full size is better than one in passing.
+    /// The longest steps (one of kStepTimes) with which a picture of full size is better than one in passing;
+    /// the longest of all until their errors are known.
     [[nodiscard]] double refinesFrom(const Passing& shown) const;
 
 private:

@@ -86,12 +86,13 @@ void addTables(Uniforms& uniforms, const Plan& plan, const VolumeTexture& volume
                               coordinateFromTexel(volume, layout.lo, layout.hi, layout.size));
     }
     if (tables.preintegration != nullptr) {
-        const auto& layout = tables.preintegration->layout;
-        uniforms.emplace_back("preintegrationFromValue",
-                              coordinateFromTexel(volume, layout.lo, layout.hi, layout.size));
-        uniforms.emplace_back(
-            "preintegrationFromLength",
-            glm::vec2((layout.layers - 1.0) / layout.layers / plan.longestStepMm, 0.5 / layout.layers));
+        const auto& table = *tables.preintegration;
+        const auto& layout = table.layout;
+        uniforms.emplace_back("entryFromValue",
+                              entryFromTexel(volume, layout.lo, layout.hi, layout.size, 1.0, 0.0));
+        uniforms.emplace_back("opticsBelow", glm::vec4(table.below.color, table.below.extinction));
+        uniforms.emplace_back("opticsAbove", glm::vec4(table.above.color, table.above.extinction));
+        uniforms.emplace_back("fullLengthMm", static_cast<float>(plan.longestStepMm));
     }
     if (tables.integrals != nullptr) {
         const auto& table = *tables.integrals;

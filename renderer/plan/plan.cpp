@@ -28,10 +28,6 @@ constexpr int kMaxLights = 256;  // 16 KB guaranteed for a uniform block leaves 
 
 Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
     if (auto valid = validate(facts.grid); !valid) return tl::unexpected(valid.error());
-    if (!facts.hasValues)
-        return fail(ErrorCode::Unsupported,
-                    "no voxel of the volume is a finite number (all are NaN or infinite): there is nothing "
-                    "to draw");
     if (!std::isfinite(facts.physicalRange.hi - facts.physicalRange.lo))
         return fail(ErrorCode::Unsupported,
                     fmt::format("the values {:g} ... {:g} span more than a float64 can hold",
@@ -111,7 +107,9 @@ TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& f
     PELLUCID_CHECK(item.transferFunction.has_value() && scene.unitLengthMm.has_value());
     // Not over a step: the errors of many small steps add up to those of a long one.
     const double voxelInUnits = smallestSpacingMm(facts.grid) / *scene.unitLengthMm * scene.densityScale;
-    return layoutTable(inCompositingSpace(*item.transferFunction, plan.features.space),
+    const auto function = inCompositingSpace(*item.transferFunction, plan.features.space);
+    // A surface has the function's colour, however transparent that is.
+    return layoutTable(scene.mode == Mode::Isosurface ? function : visiblePart(function),
                        reachableValues(facts.physicalRange, item.filter), voxelInUnits);
 }
 
@@ -134,11 +132,11 @@ void addPreintegration(Plan& plan, const Scene& scene, const VolumeFacts& facts)
         const auto layout = layoutPreintegration(scene, plan, facts);
         const auto entries =
             static_cast<std::uint64_t>(layout.size) * static_cast<std::uint64_t>(layout.size * layout.layers);
-        plan.resources.push_back(
-            {"pre-integration table", layout.layers == 1 ? "texture 2D RGBA32F" : "texture 3D RGBA32F",
-             entries * 16,
-             fmt::format("{0} x {0} end values over {1:g} ... {2:g}, {3} length{4}", layout.size, layout.lo,
-                         layout.hi, layout.layers, layout.layers == 1 ? "" : "s")});
+        plan.resources.push_back({"pre-integration table",
+                                  isPerLength(layout) ? "texture 3D RGBA32F" : "texture 2D array RGBA32F",
+                                  entries * 16,
+                                  fmt::format("{0} x {0} end values over {1:g} ... {2:g}, {3} lengths",
+                                              layout.size, layout.lo, layout.hi, layout.layers)});
     } else if (usesRunningIntegrals(integrator)) {
         const int size = integralTableSize(facts.type);
         plan.resources.push_back({"integral table", "texture 1D RGBA32F",
@@ -181,8 +179,7 @@ VolumeFacts factsOf(const Volume& volume, int component) {
             volume.physicalRange(component),
             volume.mapping().slope < 0.0,
             stored.hi - stored.lo,
-            volume.components(),
-            volume.hasValues(component)};
+            volume.components()};
 }
 
 double turnsPerSample(const Plan& plan) {

@@ -50,10 +50,7 @@ public:
     }
 
     [[nodiscard]] glm::vec4 entry(int front, int back, double depthOfLength, TableQuality quality) const {
-        if (front == back || !(m_layout.hi > m_layout.lo)) {
-            const auto at = evaluate(m_function, valueAt(front));
-            return glm::vec4(glm::vec3(at.color), static_cast<float>(at.extinction));
-        }
+        if (front == back || !(m_layout.hi > m_layout.lo)) return diagonal(front);
         const int cells = kFinePerEntry * std::abs(back - front);
         const int stride =
             quality == TableQuality::Preview ? cells : (cells + kMostSubsegments - 1) / kMostSubsegments;
@@ -63,6 +60,18 @@ public:
 private:
     [[nodiscard]] double valueAt(double entry) const {
         return m_layout.lo + (m_layout.hi - m_layout.lo) * entry / (m_layout.size - 1);
+    }
+
+    [[nodiscard]] glm::vec4 diagonal(int at) const {
+        if (at == 0 || at == m_layout.size - 1) {
+            const auto optics = evaluate(m_function, valueAt(at));
+            return glm::vec4(optics.extinction * optics.color, optics.extinction);
+        }
+        constexpr int kHalf = kFinePerEntry / 2;
+        const auto around = m_integrals[static_cast<std::size_t>(kFinePerEntry * at + kHalf)] -
+                            m_integrals[static_cast<std::size_t>(kFinePerEntry * at - kHalf)];
+        const double width = valueAt(at + 0.5) - valueAt(at - 0.5);
+        return glm::vec4(around.emission / width, around.extinction / width);
     }
 
     [[nodiscard]] glm::vec4 integrate(int from, int to, int stride, double depthOfLength) const {
@@ -87,16 +96,24 @@ private:
         }
         // Too thin to show in double: the weights are those of the emission.
         const double opacity = 1.0 - through;
-        const glm::dvec3 color = opacity > 1e-12    ? shown / opacity
-                                 : extinction > 0.0 ? emission / extinction
-                                                    : glm::dvec3(0.0);
-        return glm::vec4(glm::vec3(color), static_cast<float>(extinction));
+        const glm::dvec3 seen = opacity > 1e-12 ? extinction / opacity * shown : emission;
+        return glm::vec4(seen, extinction);
     }
 
     const TransferFunction1D& m_function;
     const PreintegrationLayout& m_layout;
     std::vector<RunningIntegrals::Value> m_integrals;
 };
+
+/// Width of the narrowest piece between two points that lies in the table.
+double narrowestPiece(const TransferFunction1D& function, const PreintegrationLayout& layout) {
+    double narrowest = layout.hi - layout.lo;
+    for (std::size_t i = 1; i < function.points.size(); ++i) {
+        const double lo = function.points[i - 1].value, hi = function.points[i].value;
+        if (hi > lo && hi > layout.lo && lo < layout.hi) narrowest = std::min(narrowest, hi - lo);
+    }
+    return narrowest;
+}
 
 }  // namespace
 
@@ -127,12 +144,15 @@ RunningIntegrals::Value RunningIntegrals::at(double value) const {
 }
 
 PreintegrationLayout layoutPreintegration(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
-    PreintegrationLayout layout{plan.table.lo, plan.table.hi, is8Bit(facts.type) ? 256 : 512, 1,
+    PreintegrationLayout layout{plan.table.lo, plan.table.hi, is8Bit(facts.type) ? 256 : 512, 2,
                                 plan.longestStepMm / *scene.unitLengthMm * scene.densityScale};
     if (plan.features.integrator == Integrator::Preintegrated3D ||
         plan.features.integrator == Integrator::Importance) {
         layout.size = 256;
         layout.layers = kLayers;
+    } else if (narrowestPiece(*scene.volumes.front().transferFunction, layout) * (layout.size - 1) <
+               4.0 * (layout.hi - layout.lo)) {
+        layout.size *= 2;
     }
     if (!(layout.hi > layout.lo)) layout.size = 2;
     return layout;
@@ -145,11 +165,10 @@ std::vector<glm::vec4> preintegrate(const TransferFunction1D& function, const Pr
     std::vector<glm::vec4> table(size * size * static_cast<std::size_t>(layout.layers));
     const auto fillRow = [&](std::size_t row) {
         const auto back = static_cast<int>(row % size);
-        const double length =
-            layout.layers == 1 ? 1.0 : static_cast<double>(row / size) / (layout.layers - 1);
+        const double layer = static_cast<double>(row / size) / (layout.layers - 1);
         for (int front = 0; front < layout.size; ++front)
             table[row * size + static_cast<std::size_t>(front)] =
-                segments.entry(front, back, length * layout.depthOfStep, quality);
+                segments.entry(front, back, layer * layer * layout.depthOfStep, quality);
     };
     forEachChunk(size * static_cast<std::size_t>(layout.layers), 8,
                  [&](std::uint64_t begin, std::uint64_t end) {

@@ -29,26 +29,35 @@ private:
     std::vector<Value> m_atPoints;
 };
 
-/// Where a transfer function is pre-integrated: `size` end values lo ... hi on both axes, segment lengths k /
-/// (layers - 1) * full length; one layer: the full length only.
+/// Where a transfer function is pre-integrated: `size` end values lo ... hi on both axes, segment lengths
+/// (k / (layers - 1))^2 * full length: colours change most where segments are thin.
 struct PreintegrationLayout {
     double lo = 0.0;
     double hi = 1.0;
     int size = 2;
-    int layers = 1;
+    int layers = 2;
     double depthOfStep =
         1.0;  ///< Optical depth of a full segment of tau = 1: step / unit length * density scale.
     bool operator==(const PreintegrationLayout&) const = default;
 };
 
-/// 256 end values for 8-bit data and 512 otherwise; with the length as third axis 256 and 8 lengths.
+/// Length is an axis of the table (`preintegrated-3d`); otherwise there are but its ends, none and the full
+/// length.
+[[nodiscard]] inline bool isPerLength(const PreintegrationLayout& layout) {
+    return layout.layers > 2;
+}
+
+/// 256 end values for 8-bit data and 512 otherwise, twice as many where the function has pieces narrower than
+/// four entries; with the length as third axis 256 and 8 lengths.
 [[nodiscard]] PreintegrationLayout layoutPreintegration(const Scene& scene, const Plan& plan,
                                                         const VolumeFacts& facts);
 
-/// Entries x front value, y back value, z length: colour of the segment as seen through itself (unassociated)
-/// and mean tau (Engel et al. 2006, equations 4.3 to 4.5; equation 12 of docs/equations.md). Exact: 8 to 64
-/// sub-segments with their exact depth, colour error below (depth / 64)^2. A preview neglects the
-/// self-attenuation of colour and costs a hundredth.
+/// Entries x front value, y back value, z length: colour of the segment as seen through itself times mean
+/// tau, and mean tau (Engel et al. 2006, equations 4.3 to 4.5; equation 12 of docs/equations.md). Exact: 8 to
+/// 64 sub-segments with their exact depth, colour error below (depth / 64)^2. On the diagonal stands the mean
+/// over half an entry to both sides, so that a peak narrower than an entry keeps its integral when it is
+/// interpolated; at the ends the function itself. A preview neglects the self-attenuation of colour and costs
+/// a hundredth.
 enum class TableQuality { Exact, Preview };
 [[nodiscard]] std::vector<glm::vec4> preintegrate(const TransferFunction1D& function,
                                                   const PreintegrationLayout& layout, TableQuality quality);

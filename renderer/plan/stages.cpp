@@ -44,16 +44,9 @@ std::span<const StageVariant> stageTable() {
         {"integrate", "trapezoid", {}, {}, {"classify"}},
         {"integrate", "simpson", {}, {}, {"classify", "reconstruct"}},
         {"integrate", "gauss_legendre", {}, {}, {"classify", "reconstruct"}},
-        {"integrate",
-         "preintegrated_2d",
-         {"preintegrationTable", "preintegrationFromValue", "extinctionPerMm"},
-         {},
-         {}},
-        {"integrate",
-         "preintegrated_3d",
-         {"preintegrationTable", "preintegrationFromValue", "preintegrationFromLength", "extinctionPerMm"},
-         {},
-         {}},
+        {"segment", "ends", {"preintegrationTable", "fullLengthMm", "extinctionPerMm"}, {}, {}},
+        {"segment", "lengths", {"preintegrationTable", "fullLengthMm", "extinctionPerMm"}, {}, {}},
+        {"integrate", "preintegrated", {"entryFromValue", "opticsBelow", "opticsAbove"}, {}, {"segment"}},
         {"integrate", "integral_functions", {"integralTable", "integralFromValue"}, {}, {"classify"}},
         {"gradient",
          "central_difference",
@@ -173,15 +166,20 @@ StageRow integrateRow(Integrator integrator) {
         case Integrator::GaussLegendre:
             return row("gauss_legendre");
         case Integrator::Preintegrated2D:
-            return row("preintegrated_2d");
         case Integrator::Preintegrated3D:
         case Integrator::Importance:
-            return row("preintegrated_3d");
+            return row("preintegrated");
         case Integrator::IntegralFunctions:
         case Integrator::Adaptive:
             break;
     }
     return row("integral_functions");
+}
+
+StageRow segmentRow(Integrator integrator) {
+    if (integrator == Integrator::Preintegrated2D)
+        return {"segment", "ends", "segments have one length, but where they are cut"};
+    return {"segment", "lengths", "segments have many lengths"};
 }
 
 StageRow accumulateRow(Accumulation accumulation) {
@@ -287,6 +285,8 @@ StageChoice chooseStages(const Features& features) {
     }
     const bool integrates = features.mode == Mode::Composite ||
                             (features.mode == Mode::XRay && integratesSegments(features.integrator));
+    if (integrates && usesPreintegration(features.integrator))
+        rows.push_back(segmentRow(features.integrator));
     if (integrates) rows.push_back(integrateRow(features.integrator));
     if (features.lit) {
         if (features.gradients == GradientSource::Texture)

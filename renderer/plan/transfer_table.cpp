@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "scene/image.h"
 
@@ -72,6 +73,12 @@ TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, d
                                         function.points.back().value);
         return {value, value, 2, 0.0};
     }
+    // Narrower than float can tell the values apart, the ends would only overflow the map to entries.
+    const double least = std::ldexp(values.hi - values.lo, -20);
+    if (layout.hi - layout.lo < least) {
+        layout.lo = std::midpoint(layout.lo, layout.hi) - 0.5 * least;
+        layout.hi = layout.lo + least;
+    }
     double best = std::numeric_limits<double>::infinity();
     for (int size : candidates(layout.lo, layout.hi)) {
         const double error = worstError(function, layout.lo, layout.hi, size, voxelInUnits);
@@ -84,6 +91,31 @@ TableLayout layoutTable(const TransferFunction1D& function, ValueRange values, d
         if (error <= kWanted) break;
     }
     return layout;
+}
+
+TransferFunction1D visiblePart(const TransferFunction1D& function) {
+    constexpr double kMargin = 1.0 / 64.0;
+    const auto& points = function.points;
+    const auto shows = [](const TransferPoint& point) { return point.extinction > 0.0; };
+    const auto first = std::find_if(points.begin(), points.end(), shows);
+    if (first == points.end()) return function;
+    const auto last = std::find_if(points.rbegin(), points.rend(), shows).base() - 1;
+    TransferFunction1D visible = function;
+    visible.points.assign(first == points.begin() ? first : first - 1,
+                          last + 1 == points.end() ? last + 1 : last + 2);
+    auto& kept = visible.points;
+    const double width = kept.back().value - kept.front().value;
+    // On to an integer, so that candidates() finds entries on all of them.
+    const auto beyond = [&](double value, double direction) {
+        const double moved = value + direction * kMargin * width;
+        if (width < 1.0 || value != std::floor(value)) return moved;
+        return direction < 0.0 ? std::floor(moved) : std::ceil(moved);
+    };
+    const bool jumpsUp = first != points.begin() && kept[0].value == kept[1].value;
+    const bool jumpsDown = last + 1 != points.end() && kept[kept.size() - 2].value == kept.back().value;
+    if (jumpsUp) kept.front().value = beyond(kept.front().value, -1.0);
+    if (jumpsDown) kept.back().value = beyond(kept.back().value, 1.0);
+    return visible;
 }
 
 TransferFunction1D inCompositingSpace(const TransferFunction1D& function, CompositingSpace space) {

@@ -17,6 +17,11 @@ namespace pellucid::renderer {
 [[nodiscard]] TableLayout layoutTable(const TransferFunction1D& function, ValueRange values,
                                       double voxelInUnits);
 
+/// The function from where it begins to show to where it ends: what lies beyond has no extinction, and its
+/// colour does not matter in modes that weigh colours with extinction. A function that jumps there keeps a
+/// margin of 1/64, so that the jump lies within the table.
+[[nodiscard]] TransferFunction1D visiblePart(const TransferFunction1D& function);
+
 /// The function with control-point colours decoded to light-linear when that is the compositing space.
 [[nodiscard]] TransferFunction1D inCompositingSpace(const TransferFunction1D& function,
                                                     CompositingSpace space);

@@ -9,24 +9,21 @@ namespace pellucid::renderer {
 namespace {
 
 void upload(const PreintegrationTexture& table, const std::vector<glm::vec4>& entries) {
-    const int size = table.layout.size;
-    if (table.layout.layers == 1)
-        glTextureSubImage2D(table.texture.id(), 0, 0, 0, size, size, GL_RGBA, GL_FLOAT, entries.data());
-    else
-        glTextureSubImage3D(table.texture.id(), 0, 0, 0, 0, size, size, table.layout.layers, GL_RGBA,
-                            GL_FLOAT, entries.data());
+    const auto& layout = table.layout;
+    glTextureSubImage3D(table.texture.id(), 0, 0, 0, 0, layout.size, layout.size, layout.layers, GL_RGBA,
+                        GL_FLOAT, entries.data());
 }
 
 }  // namespace
 
 PreintegrationTexture uploadPreintegration(const TransferFunction1D& function,
                                            const PreintegrationLayout& layout, bool wait) {
-    const bool flat = layout.layers == 1;
-    PreintegrationTexture table{createTexture(flat ? GL_TEXTURE_2D : GL_TEXTURE_3D), layout, {}};
-    if (flat)
-        glTextureStorage2D(table.texture.id(), 1, GL_RGBA32F, layout.size, layout.size);
-    else
-        glTextureStorage3D(table.texture.id(), 1, GL_RGBA32F, layout.size, layout.size, layout.layers);
+    PreintegrationTexture table{createTexture(isPerLength(layout) ? GL_TEXTURE_3D : GL_TEXTURE_2D_ARRAY),
+                                layout,
+                                evaluate(function, layout.lo),
+                                evaluate(function, layout.hi),
+                                {}};
+    glTextureStorage3D(table.texture.id(), 1, GL_RGBA32F, layout.size, layout.size, layout.layers);
     if (wait) {
         upload(table, preintegrate(function, layout, TableQuality::Exact));
         return table;

@@ -6,13 +6,15 @@
 
 #include "renderer/gpu/gl_handle.h"
 #include "renderer/plan/preintegration.h"
+#include "scene/transfer_function.h"
 
 namespace pellucid::renderer {
 
-/// A pre-integration table on the GPU: 2D, or 3D when it has layers.
+/// A pre-integration table on the GPU: 3D where length is an axis, otherwise an array of two.
 struct PreintegrationTexture {
     GlTexture texture;
     PreintegrationLayout layout;
+    OpticalSample below, above;  ///< The function at the table's ends and beyond them.
     std::future<std::vector<glm::vec4>>
         exact;  ///< Valid while the texture is a preview and the exact table is being made.
 };

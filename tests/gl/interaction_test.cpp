@@ -138,7 +138,8 @@ TEST(InteractionControl, StatesAnErrorOnlyOnceItIsKnown) {
 
 TEST(InteractionControl, ARefinementBeginsWithWhatIsBetterThanWhatIsShown) {
     InteractionControl control(100.0);
-    control.learned(errorsOf(0.01, 0.02));  // Twice the step is as wrong as half the size.
+    EXPECT_EQ(control.refinesFrom({}), 4.0);  // Nothing is known: all are drawn, to learn it.
+    control.learned(errorsOf(0.01, 0.02));    // Twice the step is as wrong as half the size.
     EXPECT_EQ(control.refinesFrom({12.0, 1.0}), 4.0);
     EXPECT_EQ(control.refinesFrom({4.0, 1.0}), 2.0);
     EXPECT_EQ(control.refinesFrom({2.0, 1.0}), 1.0);

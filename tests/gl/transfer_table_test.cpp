@@ -64,6 +64,31 @@ TEST(TransferTable, AStepIsReportedNotHidden) {
     EXPECT_GT(layout.worstError, 0.1);
 }
 
+/// What is transparent to both sides costs no entries; a jump keeps an entry below and above.
+TEST(TransferTable, TheVisiblePartEndsWhereTheFunctionDoes) {
+    const auto shown = [](std::vector<TransferPoint> points) {
+        return visiblePart({"", "", std::move(points)}).points;
+    };
+    const glm::dvec3 grey(0.5);
+    const auto peak =
+        shown({{-1000, grey, 0}, {195, grey, 0}, {200, grey, 2}, {205, grey, 0}, {3000, grey, 0}});
+    EXPECT_EQ(peak.size(), 3u);
+    EXPECT_EQ(peak.front().value, 195.0);
+    EXPECT_EQ(peak.back().value, 205.0);
+    const auto box =
+        shown({{0, grey, 0}, {100, grey, 0}, {100, grey, 2}, {164, grey, 2}, {164, grey, 0}, {300, grey, 0}});
+    EXPECT_EQ(box.front().value, 99.0);
+    EXPECT_EQ(box.front().extinction, 0.0);
+    EXPECT_EQ(box.back().value, 165.0);
+    const auto narrow = shown({{0.25, grey, 0}, {0.25, grey, 2}, {0.75, grey, 0}});
+    EXPECT_EQ(narrow.front().value, 0.25 - 0.5 / 64.0);
+    EXPECT_EQ(narrow.back().value, 0.75);
+    const auto open = shown({{0, grey, 1}, {1, grey, 2}});
+    EXPECT_EQ(open.size(), 2u);
+    const auto nothing = shown({{0, grey, 0}, {1, grey, 0}});
+    EXPECT_EQ(nothing.size(), 2u);
+}
+
 TEST(TransferTable, NothingVariesOutsideTheReachableValues) {
     const TransferFunction1D function{"", "", {{100, {0, 0, 0}, 0}, {200, {1, 1, 1}, 1.0}}};
     const auto below = layoutTable(function, {0, 50}, 1.0);
