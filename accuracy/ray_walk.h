@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "accuracy/field.h"
+#include "accuracy/ray_clip.h"
 
 namespace pellucid::accuracy {
 
@@ -22,11 +23,6 @@ struct IndexRay {
 /// A part of a ray inside one cell.
 struct Segment {
     glm::ivec3 cell{0};
-    double from = 0.0;
-    double to = 0.0;
-};
-
-struct Interval {
     double from = 0.0;
     double to = 0.0;
 };
@@ -52,9 +48,10 @@ struct Interval {
     return inside;
 }
 
-/// Calls visit(Segment) in ray order, cell by cell, with segments of at most stepMm, until it returns false.
+/// Calls visit(Segment) in ray order, cell by cell, with segments of at most stepMm, until it returns false;
+/// returns what it returned last.
 template <class Visit>
-void walkCells(const Field& field, const IndexRay& ray, const Interval& range, double stepMm, Visit&& visit) {
+bool walkCells(const Field& field, const IndexRay& ray, const Interval& range, double stepMm, Visit&& visit) {
     double from = range.from;
     while (from < range.to) {
         // The cell just ahead: a point on a border belongs to the side the ray goes to.
@@ -69,7 +66,7 @@ void walkCells(const Field& field, const IndexRay& ray, const Interval& range, d
                 t = (border + std::copysign(1.0, speed) - field.cellOffset() - ray.origin[axis]) / speed;
             to = std::min(to, t);
         }
-        if (!(to > from)) return;  // The rest is shorter than double can tell.
+        if (!(to > from)) return true;  // The rest is shorter than double can tell.
         const glm::ivec3 cell = field.cellOf(ray.at((from + to) / 2.0));
         const auto parts =
             std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil((to - from) / stepMm)));
@@ -78,11 +75,12 @@ void walkCells(const Field& field, const IndexRay& ray, const Interval& range, d
         for (std::int64_t part = 1; part <= parts; ++part) {
             const double partTo =
                 part == parts ? to : from + length * static_cast<double>(part) / static_cast<double>(parts);
-            if (partTo > partFrom && !visit(Segment{cell, partFrom, partTo})) return;
+            if (partTo > partFrom && !visit(Segment{cell, partFrom, partTo})) return false;
             partFrom = partTo;
         }
         from = to;
     }
+    return true;
 }
 
 }  // namespace pellucid::accuracy

@@ -95,7 +95,7 @@ Result<Reference> referencePicture(const Scene& scene, const std::vector<VolumeP
                                    const ReferenceOptions& options) {
     const auto complete = checkedScene(scene, volumes);
     if (!complete) return tl::unexpected<Error>(complete.error());
-    const RayIntegrator integrator(*complete, *volumes.front(), options.insetVoxels);
+    const RayIntegrator integrator(*complete, *volumes.front(), options.insetVoxels, options.clip);
     const glm::ivec2 size = complete->picture.size;
 
     double step = stepMm(complete->quality, volumes.front()->grid());

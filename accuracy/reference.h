@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "accuracy/ray_clip.h"
 #include "scene/image.h"
 #include "scene/progress.h"
 #include "scene/scene.h"
@@ -21,6 +22,7 @@ struct ReferenceOptions {
     int maxHalvings = 8;
     Progress progress;
     double insetVoxels = 0.0;  ///< The volume ends this far inside the box that its voxels fill, in [0, 0.5].
+    RayClip clip{};            ///< What is visible of a ray; empty: all that is inside the volume.
 };
 
 /// The same optical model as the renderer, integrated on the CPU in double precision by independent code (no

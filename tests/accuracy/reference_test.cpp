@@ -70,7 +70,7 @@ TEST(Reference, CubicFiltersKeepALinearRamp) {
         const auto ray = integrator.rayAt(0.0, 0.0);
         const Interval range{ray.inside->from + 2.5, ray.inside->from + 9.0};  // Index 2 to 8.5.
         const double a = 0.8 * (0.125 + 2.0 * 0.0625);
-        EXPECT_NEAR(integrator.integrate(ray, range, 0.5).opticalDepth,
+        EXPECT_NEAR(integrator.integrate(ray, {range}, 0.5).opticalDepth,
                     a * 6.5 + 0.8 * 0.0625 * 6.5 * 6.5 / 2.0, 1e-12);
     }
 }
@@ -89,7 +89,7 @@ TEST(Reference, LinearColourInAConstantMediumHasItsClosedForm) {
         const Interval range{ray.inside->from + 0.5, ray.inside->from + 0.5 + length};
         const double opacity = -std::expm1(-k * length);
         const double ramp = (opacity / k - length * std::exp(-k * length)) / length;
-        const RayIntegral found = integrator.integrate(ray, range, 1.0);
+        const RayIntegral found = integrator.integrate(ray, {range}, 1.0);
         EXPECT_NEAR(found.color.r, ramp, 1e-9) << k;
         EXPECT_NEAR(found.color.g, ramp / 2.0, 1e-9) << k;
         EXPECT_NEAR(found.color.b, opacity - ramp, 1e-9) << k;
@@ -136,11 +136,11 @@ TEST(Reference, SplittingARayAndJoiningItChangesNothing) {
     const RayIntegrator integrator(completed(scene, {volume}), *volume);
     const auto ray = integrator.rayAt(0.0, 0.0);
     const Interval whole = *ray.inside;
-    const RayIntegral all = integrator.integrate(ray, whole, 1e-3);
+    const RayIntegral all = integrator.integrate(ray, {whole}, 1e-3);
     for (const double part : {0.1, 0.37, 0.5, 0.93}) {
         const double middle = whole.from + part * (whole.to - whole.from);
-        const RayIntegral front = integrator.integrate(ray, {whole.from, middle}, 1e-3);
-        const RayIntegral back = integrator.integrate(ray, {middle, whole.to}, 1e-3);
+        const RayIntegral front = integrator.integrate(ray, {{whole.from, middle}}, 1e-3);
+        const RayIntegral back = integrator.integrate(ray, {{middle, whole.to}}, 1e-3);
         EXPECT_NEAR(front.opticalDepth + back.opticalDepth, all.opticalDepth, 1e-12);
         // The shade jumps where the normal turns; the pieces close in on it to 1e-7 each.
         expectColor({front.color + std::exp(-front.opticalDepth) * back.color, 0.0}, all.color, 1e-6);
