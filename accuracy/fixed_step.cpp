@@ -32,9 +32,7 @@ struct FixedStepIntegrator::Walk {
     }
     LocalOptics optics(double t) {
         if (medium.preClassified()) return medium.opticsAt(ray, medium.cellAt(ray, t), 0, t);
-        const double v = value(t);
-        const int piece = medium.optics().pieceOf(v);
-        return {medium.optics().color(piece, v), medium.optics().extinctionPerMm(piece, v)};
+        return medium.optics().at(value(t));
     }
     /// Light is reflected in the middle of a segment.
     SegmentOptics lit(SegmentOptics segment, double middle) const {

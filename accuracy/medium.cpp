@@ -87,12 +87,10 @@ std::vector<Interval> Medium::visibleParts(const ViewRay& ray) const {
 Medium::PreClassifiedFields Medium::preClassifiedFields() const {
     std::array<std::vector<double>, 4> fields;
     for (const double value : m_field.voxels()) {
-        const int piece = m_optics.pieceOf(value);
-        const double extinction = m_optics.extinctionPerMm(piece, value);
-        const glm::dvec3 emission = extinction * m_optics.color(piece, value);
+        const LocalOptics local = m_optics.at(value);
         for (std::size_t channel = 0; channel < 3; ++channel)
-            fields[channel].push_back(emission[static_cast<int>(channel)]);
-        fields[3].push_back(extinction);
+            fields[channel].push_back(local.extinction * local.color[static_cast<int>(channel)]);
+        fields[3].push_back(local.extinction);
     }
     const auto field = [&](std::size_t i) {
         return Field(m_field.size(), m_scene.volumes.front().filter, std::move(fields[i]));
@@ -101,10 +99,7 @@ Medium::PreClassifiedFields Medium::preClassifiedFields() const {
 }
 
 LocalOptics Medium::opticsAt(const ViewRay& ray, glm::ivec3 cell, int piece, double t) const {
-    if (!m_preClassified) {
-        const double value = valueAt(ray, cell, t);
-        return {m_optics.color(piece, value), m_optics.extinctionPerMm(piece, value)};
-    }
+    if (!m_preClassified) return m_optics.at(piece, valueAt(ray, cell, t));
     const glm::dvec3 index = ray.index.at(t);
     const auto at = [&](const Field& field) { return field.value(cell, index); };
     const double extinction = at(m_preClassified->extinction);

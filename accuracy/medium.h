@@ -27,12 +27,6 @@ struct ViewRay {
     [[nodiscard]] double visibleMm() const;
 };
 
-/// Colour (unassociated, compositing space) and extinction per mm at a point.
-struct LocalOptics {
-    glm::dvec3 color{0.0};
-    double extinction = 0.0;
-};
-
 /// A scene's volume as a continuous medium in double: rays, values, colours, extinction, light, and how what
 /// a ray has met is shown. Knows nothing of steps.
 class Medium {

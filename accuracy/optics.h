@@ -9,6 +9,12 @@
 
 namespace pellucid::accuracy {
 
+/// Colour (unassociated, compositing space) and extinction per mm at a point.
+struct LocalOptics {
+    glm::dvec3 color{0.0};
+    double extinction = 0.0;
+};
+
 /// A transfer function in the compositing space, taken apart into its linear pieces, so that an integral can
 /// be split where the function bends or jumps. Colours of control points are decoded first and interpolated
 /// then.
@@ -31,6 +37,10 @@ public:
     /// Unassociated colour in the compositing space.
     [[nodiscard]] glm::dvec3 color(int piece, double value) const;
     [[nodiscard]] double extinctionPerMm(int piece, double value) const;
+    [[nodiscard]] LocalOptics at(int piece, double value) const {
+        return {color(piece, value), extinctionPerMm(piece, value)};
+    }
+    [[nodiscard]] LocalOptics at(double value) const { return at(pieceOf(value), value); }
 
 private:
     /// The piece's line: value = weight of the upper one of two points.

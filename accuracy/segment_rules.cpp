@@ -10,10 +10,6 @@
 namespace pellucid::accuracy {
 namespace {
 
-LocalOptics opticsOf(const Optics& optics, int piece, double value) {
-    return {optics.color(piece, value), optics.extinctionPerMm(piece, value)};
-}
-
 /// Calls visit(piece, from, to), parts of the segment [0, 1] on which the function is one line.
 template <class Visit>
 void splitAtPoints(const Optics& optics, double front, double back, double from, double to,
@@ -82,7 +78,7 @@ SegmentOptics linearValueRule(const Optics& optics, double front, double back, d
     splitAtPoints(optics, front, back, 0.0, 1.0, [&](int piece, double from, double to) {
         addSmoothPiece(
             from * lengthMm, to * lengthMm,
-            [&](double t) { return opticsOf(optics, piece, front + t / lengthMm * (back - front)); },
+            [&](double t) { return optics.at(piece, front + t / lengthMm * (back - front)); },
             [](double, const glm::dvec3& color) { return color; }, false, sum);
     });
     // What is too thin for an opacity in double has the colour of (13).
@@ -98,14 +94,13 @@ SegmentOptics runningIntegralRule(const Optics& optics, double front, double bac
         // Emission is a parabola on a piece, on which three nodes are exact.
         for (std::size_t i = 0; i < 3; ++i) {
             const double at = from + kNodes[i] * (to - from);
-            const LocalOptics local = opticsOf(optics, piece, front + at * (back - front));
+            const LocalOptics local = optics.at(piece, front + at * (back - front));
             const double weight = kWeights[i] * (to - from) * local.extinction;
             emission += weight * local.color;
             extinction += weight;
         }
     });
-    return {meanOf(emission, extinction, opticsOf(optics, optics.pieceOf(front), front).color),
-            extinction * lengthMm};
+    return {meanOf(emission, extinction, optics.at(front).color), extinction * lengthMm};
 }
 
 }  // namespace pellucid::accuracy

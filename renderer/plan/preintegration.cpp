@@ -52,8 +52,9 @@ public:
     [[nodiscard]] glm::vec4 entry(int front, int back, double depthOfLength, TableQuality quality) const {
         if (front == back || !(m_layout.hi > m_layout.lo)) return diagonal(front);
         const int cells = kFinePerEntry * std::abs(back - front);
-        const int stride =
-            quality == TableQuality::Preview ? cells : (cells + kMostSubsegments - 1) / kMostSubsegments;
+        // Where nothing hides anything, the parts of a segment add up to the difference of its ends.
+        const bool hides = quality == TableQuality::Exact && depthOfLength > 0.0;
+        const int stride = hides ? (cells + kMostSubsegments - 1) / kMostSubsegments : cells;
         return integrate(kFinePerEntry * front, kFinePerEntry * back, stride, depthOfLength);
     }
 
