@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/plan/features.h"
 #include "scene/check.h"
 
 namespace pellucid::renderer {
@@ -26,9 +27,7 @@ Scene reduced(const Scene& scene, int reduction) {
 }  // namespace
 
 Integrator withoutTable(Integrator integrator) {
-    const bool isTabulated =
-        integrator == Integrator::Preintegrated2D || integrator == Integrator::Preintegrated3D;
-    return isTabulated ? Integrator::IntegralFunctions : integrator;
+    return usesPreintegration(integrator) ? Integrator::IntegralFunctions : integrator;
 }
 
 Scene comparison(const Scene& scene, const Plan& plan) {

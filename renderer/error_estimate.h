@@ -22,7 +22,8 @@ struct PictureError {
 [[nodiscard]] PictureError pictureError(const ImageF& a, const ImageF& b);
 
 /// Running integrals in place of pre-integration, whose tables belong to one step and take longer to make
-/// than a picture that is only compared with; the limit is the same.
+/// than a picture that is only compared with; the limit is the same. Importance steps follow from the data,
+/// not from the scene's step: beside themselves they would show no error.
 [[nodiscard]] Integrator withoutTable(Integrator integrator);
 
 /// The scene with a quarter of the step and nothing else that is known to be inexact; `plan` is the scene's.

@@ -14,6 +14,14 @@ namespace {
 
 constexpr int kMaxComponents = 4;
 constexpr int kMaxPicturePixels = 16384;
+// Pictures are computed in floats, whose largest is 3.4e38. What a scene's numbers make of each other is for
+// the plan to check.
+constexpr double kLargest = 1e30;
+constexpr double kSmallest = 1e-30;
+// At a larger exponent the rounding of a float cosine changes a highlight by more than a thousandth.
+constexpr double kLargestShininess = 1e4;
+// Below this the extinction sought cannot be told from none.
+constexpr double kSmallestHitOpacity = 1e-9;
 
 /// Collects the first complaint; the checks read as a list of what is allowed.
 class Checker {
@@ -26,8 +34,15 @@ public:
     void positive(double value, std::string_view pointer) {
         require(std::isfinite(value) && value > 0.0, pointer, value, "a finite number above 0");
     }
+    /// Computed with in floats.
+    void positiveFloat(double value, std::string_view pointer) {
+        require(value > 0.0 && value <= kLargest, pointer, value, "a number in (0, 1e30]");
+    }
     void notNegative(double value, std::string_view pointer) {
         require(std::isfinite(value) && value >= 0.0, pointer, value, "a finite number >= 0");
+    }
+    void notNegativeFloat(double value, std::string_view pointer) {
+        require(value >= 0.0 && value <= kLargest, pointer, value, "a number in [0, 1e30]");
     }
     void finite(double value, std::string_view pointer) {
         require(std::isfinite(value), pointer, value, "a finite number");
@@ -83,8 +98,8 @@ void checkItem(const VolumeItem& item, const std::string& at, Checker& check) {
 }
 
 void checkLight(const Light& light, const std::string& at, Checker& check) {
-    for (int c = 0; c < 3; ++c) check.notNegative(light.color[c], fmt::format("{}/color/{}", at, c));
-    check.notNegative(light.intensity, at + "/intensity");
+    for (int c = 0; c < 3; ++c) check.notNegativeFloat(light.color[c], fmt::format("{}/color/{}", at, c));
+    check.notNegativeFloat(light.intensity, at + "/intensity");
     check.finite(light.directionMm, at + "/directionMm");
     check.finite(light.positionMm, at + "/positionMm");
     check.require(light.directionMm != glm::dvec3(0.0), at + "/directionMm", 0.0,
@@ -100,17 +115,20 @@ Result<void> validate(const Scene& scene) {
     if (scene.lights)
         for (std::size_t i = 0; i < scene.lights->size(); ++i)
             checkLight((*scene.lights)[i], fmt::format("/lights/{}", i), check);
-    check.notNegative(scene.material.ambient, "/material/ambient");
-    check.notNegative(scene.material.diffuse, "/material/diffuse");
-    check.notNegative(scene.material.specular, "/material/specular");
-    check.positive(scene.material.shininess, "/material/shininess");
+    check.notNegativeFloat(scene.material.ambient, "/material/ambient");
+    check.notNegativeFloat(scene.material.diffuse, "/material/diffuse");
+    check.notNegativeFloat(scene.material.specular, "/material/specular");
+    check.require(scene.material.shininess > 0.0 && scene.material.shininess <= kLargestShininess,
+                  "/material/shininess", scene.material.shininess, "a number in (0, 10000]");
     check.part(validate(scene.camera), "/camera");
-    check.require(scene.hitOpacity > 0.0 && scene.hitOpacity <= 1.0, "/hitOpacity", scene.hitOpacity,
-                  "a number in (0, 1]");
-    if (scene.unitLengthMm) check.positive(*scene.unitLengthMm, "/unitLengthMm");
-    check.notNegative(scene.densityScale, "/densityScale");
-    check.positive(scene.quality.stepVoxels, "/quality/stepVoxels");
-    if (scene.quality.stepMm) check.positive(*scene.quality.stepMm, "/quality/stepMm");
+    check.require(scene.hitOpacity >= kSmallestHitOpacity && scene.hitOpacity <= 1.0, "/hitOpacity",
+                  scene.hitOpacity, "a number in [1e-9, 1]");
+    if (scene.unitLengthMm)
+        check.require(*scene.unitLengthMm >= kSmallest && *scene.unitLengthMm <= kLargest, "/unitLengthMm",
+                      *scene.unitLengthMm, "a number in [1e-30, 1e30]");
+    check.notNegativeFloat(scene.densityScale, "/densityScale");
+    check.positiveFloat(scene.quality.stepVoxels, "/quality/stepVoxels");
+    if (scene.quality.stepMm) check.positiveFloat(*scene.quality.stepMm, "/quality/stepMm");
     if (scene.quality.interpolationGreyLevels)
         check.positive(*scene.quality.interpolationGreyLevels, "/quality/interpolationGreyLevels");
     if (scene.quality.toleranceGreyLevels)

@@ -83,9 +83,9 @@ Result<void> validate(const TransferFunction1D& function) {
             if (!(point.color[c] >= 0.0 && point.color[c] <= 1.0))
                 return refuse(fmt::format("/{}/color/{}", i, c),
                               fmt::format("found {}, allowed is a number in [0, 1]", point.color[c]));
-        if (!(point.extinction >= 0.0) || !std::isfinite(point.extinction))
+        if (!(point.extinction >= 0.0 && point.extinction <= kLargestExtinction))
             return refuse(fmt::format("/{}/extinction", i),
-                          fmt::format("found {}, allowed is a finite number >= 0", point.extinction));
+                          fmt::format("found {}, allowed is a number in [0, 1e30]", point.extinction));
     }
     return {};
 }
@@ -113,11 +113,8 @@ std::vector<glm::vec4> bakeTable(const TransferFunction1D& function, double lo, 
     for (int i = 0; i < n; ++i) {
         const double fraction = static_cast<double>(i) / (n - 1);
         const OpticalSample sample = evaluate(function, std::lerp(lo, hi, fraction));
-        // An extinction beyond float is as opaque as any float can say.
-        const double extinction =
-            std::min(sample.extinction, static_cast<double>(std::numeric_limits<float>::max()));
         table[static_cast<std::size_t>(i)] =
-            glm::vec4(glm::vec3(sample.color), static_cast<float>(extinction));
+            glm::vec4(glm::vec3(sample.color), static_cast<float>(sample.extinction));
     }
     return table;
 }

@@ -15,6 +15,9 @@ namespace pellucid {
 /// below 1. Extinctions above it are legal (dense media); they merely all show as opacity 1.
 inline constexpr double kOpaqueExtinction = 16.635532333438686;
 
+/// The largest extinction allowed: pictures are computed in floats.
+inline constexpr double kLargestExtinction = 1e30;
+
 /// tau = -ln(1 - alpha) per unit length, capped at kOpaqueExtinction (Engel et al. 2006, eq. 1.17 in
 /// extinction form). Precondition: alpha in [0, 1].
 [[nodiscard]] double extinctionFromOpacity(double alpha);
@@ -27,7 +30,7 @@ inline constexpr double kOpaqueExtinction = 16.635532333438686;
 struct TransferPoint {
     double value = 0.0;               ///< Physical value.
     glm::dvec3 color{1.0, 1.0, 1.0};  ///< Unassociated display-encoded RGB in [0, 1].
-    double extinction = 0.0;          ///< tau per unit length, >= 0 and finite.
+    double extinction = 0.0;          ///< tau per unit length, in [0, kLargestExtinction].
     bool operator==(const TransferPoint&) const = default;
 };
 
@@ -46,7 +49,7 @@ struct OpticalSample {
 
 /// Errors: InvalidArgument, the message beginning with the JSON pointer below the function ("/points/3/value:
 /// ..."): no points, more than 65536, descending or non-finite values, colour outside [0, 1], extinction
-/// negative or not finite.
+/// outside [0, kLargestExtinction].
 [[nodiscard]] Result<void> validate(const TransferFunction1D& function);
 
 /// Evaluates at a physical value; NaN gives the first point. Precondition: validate() passed. O(log n).

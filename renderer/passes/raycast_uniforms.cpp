@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "renderer/plan/importance.h"
+#include "renderer/plan/number_limits.h"
 #include "scene/image.h"
 
 namespace pellucid::renderer {
@@ -137,17 +138,6 @@ void addImportance(Uniforms& uniforms, const Scene& scene, const Plan& plan, con
     uniforms.emplace_back("kinkWeight", static_cast<float>(kinkWeight(plan.features.filter)));
     uniforms.emplace_back("layerMm", static_cast<float>(layerMm(grid)));
     uniforms.emplace_back("eightTolerances", static_cast<float>(8.0 * importanceTolerance(scene.quality)));
-}
-
-/// The most light a point can send relative to its colour: what is hidden behind transmittance T changes the
-/// picture by at most T times this.
-double brightestReflection(const Scene& scene) {
-    if (!scene.lights || scene.lights->empty()) return 1.0;
-    double sum = scene.material.ambient;
-    for (const auto& light : *scene.lights)
-        sum += light.intensity * std::max({light.color.x, light.color.y, light.color.z}) *
-               (scene.material.diffuse + scene.material.specular);
-    return std::max(sum, 1.0);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "renderer/plan/blocks.h"
 #include "renderer/plan/gradients.h"
 #include "renderer/plan/importance.h"
+#include "renderer/plan/number_limits.h"
 #include "renderer/plan/preintegration.h"
 #include "renderer/plan/skipping.h"
 #include "renderer/plan/stages.h"
@@ -228,6 +229,7 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     plan.longestStepMm = plan.stepMm;
     if (plan.features.integrator == Integrator::Importance)
         plan.longestStepMm = std::max(plan.stepMm, longestImportanceStepMm(facts.grid, plan.features.filter));
+    if (auto fine = checkNumbers(scene, plan, facts.grid); !fine) return tl::unexpected(fine.error());
     plan.samplesPerRay =
         scene.mode == Mode::Slice ? 1.0 : std::ceil(2.0 * radiusMm(facts.grid) / plan.stepMm);
     auto choice = chooseStages(plan.features);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The error a frame states of itself, held against the reference on real scans and synthetic fields.
 #include "io/load.h"
+#include "renderer/plan/features.h"
 #include "renderer/refinement.h"
 #include "tests/accuracy/estimate_judge.h"
 
@@ -37,6 +38,19 @@ TEST_F(Estimate, LiesWithinAFactorOfTwo) {
     }
     judge.max.expectGood("maximum");
     judge.rmse.expectGood("RMSE");
+}
+
+/// What a table gets wrong must not be in both pictures.
+TEST_F(Estimate, NoPictureComparedWithIsTabulated) {
+    for (const auto& integrator : enumNames<Integrator>()) {
+        Scene scene = sceneIn(Mode::Composite, false);
+        scene.quality.integrator = integrator.value;
+        const renderer::Frame frame = frameOf(scene, accuracy::marschnerLobb(8));
+        const Integrator better = renderer::comparison(scene, frame.plan).quality.integrator;
+        EXPECT_FALSE(renderer::usesPreintegration(better)) << integrator.name;
+        EXPECT_EQ(better == integrator.value, !renderer::usesPreintegration(integrator.value))
+            << integrator.name;
+    }
 }
 
 TEST_F(Estimate, ARefinementHalvesTheStepUntilThePictureIsTheScenes) {

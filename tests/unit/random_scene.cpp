@@ -63,6 +63,19 @@ public:
             if (value > 0.0) return value;
         }
     }
+    /// As large as what is computed in floats may be.
+    double notNegativeFloat() {
+        for (;;) {
+            const double value = notNegative();
+            if (value <= 1e30) return value;
+        }
+    }
+    double positiveFloat() {
+        for (;;) {
+            const double value = positive();
+            if (value <= 1e30) return value;
+        }
+    }
     /// In [0, 1], often a whole byte.
     double unit() {
         if (coin()) return integer(0, 255) / 255.0;
@@ -112,7 +125,7 @@ public:
             values.push_back(i > 0 && coin() ? values[0] : finite());
         std::sort(values.begin(), values.end());
         for (std::size_t i = 0; i < values.size(); ++i)
-            result.points[i] = {values[i], color(), notNegative()};
+            result.points[i] = {values[i], color(), notNegativeFloat()};
         return result;
     }
     VolumeItem item() {
@@ -133,9 +146,9 @@ public:
     Light light() {
         Light result;
         result.kind = anyOf<LightKind>();
-        if (coin()) result.color = {notNegative(), notNegative(), notNegative()};
+        if (coin()) result.color = {notNegativeFloat(), notNegativeFloat(), notNegativeFloat()};
         if (coin()) result.color = color();
-        if (coin()) result.intensity = notNegative();
+        if (coin()) result.intensity = notNegativeFloat();
         if (coin()) result.positionMm = vector();
         if (coin()) result.directionMm = vector();
         if (result.directionMm == glm::dvec3(0.0)) result.directionMm.z = -1.0;
@@ -169,16 +182,17 @@ Scene randomScene(std::mt19937_64& random) {
     if (make.coin()) scene.lights.emplace();
     for (int i = make.integer(0, 3); scene.lights && i > 0; --i) scene.lights->push_back(make.light());
     if (make.coin())
-        scene.material = {make.notNegative(), make.notNegative(), make.notNegative(), make.positive()};
+        scene.material = {make.notNegativeFloat(), make.notNegativeFloat(), make.notNegativeFloat(),
+                          std::min(make.positive(), 1e4)};
     if (make.coin()) scene.camera = make.camera();
     scene.mode = make.anyOf<Mode>();
-    if (make.coin()) scene.hitOpacity = std::max(make.unit(), std::numeric_limits<double>::denorm_min());
+    if (make.coin()) scene.hitOpacity = std::max(make.unit(), 1e-9);
     scene.xray = make.anyOf<XRayDisplay>();
     scene.space = make.anyOf<CompositingSpace>();
-    if (make.coin()) scene.unitLengthMm = make.positive();
-    if (make.coin()) scene.densityScale = make.notNegative();
-    if (make.coin()) scene.quality.stepVoxels = make.positive();
-    if (make.coin()) scene.quality.stepMm = make.positive();
+    if (make.coin()) scene.unitLengthMm = std::max(make.positiveFloat(), 1e-30);
+    if (make.coin()) scene.densityScale = make.notNegativeFloat();
+    if (make.coin()) scene.quality.stepVoxels = make.positiveFloat();
+    if (make.coin()) scene.quality.stepMm = make.positiveFloat();
     if (make.coin()) scene.quality.earlyTermination = std::min(make.unit(), std::nextafter(1.0, 0.0));
     scene.quality.integrator = make.anyOf<Integrator>();
     scene.quality.accumulation = make.anyOf<Accumulation>();
