@@ -105,6 +105,27 @@ RayIntegral FixedStepIntegrator::sumOfSegments(Walk& walk) const {
     return sum;
 }
 
+/// The extreme sample, then eight more within half a step of it (docs/equations.md, Projections).
+FixedStepIntegrator::Extremum FixedStepIntegrator::extremum(Walk& walk) const {
+    const double sign = m_medium.scene().mode == Mode::Mip ? 1.0 : -1.0;
+    const double none = -std::numeric_limits<double>::infinity();
+    double greatest = none, second = none, at = 0.0;
+    walkSegments(walk.ray, [&](double from, double to) {
+        const double middle = 0.5 * (from + to);
+        const double value = sign * walk.value(middle);
+        // Equal ones are one voxel, of which the first counts.
+        if (value != greatest) second = std::max(second, std::min(value, greatest));
+        if (value > greatest) at = middle;
+        greatest = std::max(greatest, value);
+    });
+    const double toRunnerUp = greatest - second;
+    const double from = std::max(at - 0.5 * m_stepMm, walk.ray.inside->from);
+    const double to = std::min(at + 0.5 * m_stepMm, walk.ray.inside->to);
+    for (int i = 0; i < 8; ++i)
+        greatest = std::max(greatest, sign * walk.value(std::lerp(from, to, (i + 0.5) / 8.0)));
+    return {sign * greatest, toRunnerUp};
+}
+
 FixedStepIntegrator::Pixel FixedStepIntegrator::pixel(double u, double v) const {
     Walk walk{m_medium, m_medium.rayAt(u, v)};
     const ViewRay& ray = walk.ray;
@@ -121,22 +142,22 @@ FixedStepIntegrator::Pixel FixedStepIntegrator::pixel(double u, double v) const 
         const bool cut = ray.sliceMm >= ray.inside->from && ray.sliceMm <= ray.inside->to;
         return done(m_medium.windowed(cut ? std::optional(walk.value(ray.sliceMm)) : std::nullopt));
     }
+    if (scene.mode == Mode::Mip || scene.mode == Mode::MinIp) {
+        const Extremum found = extremum(walk);
+        Pixel pixel = done(m_medium.windowed(found.value));
+        pixel.toRunnerUp = found.toRunnerUp;
+        return pixel;
+    }
     glm::dvec3 emission(0.0);
     double weighted = 0.0;
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -lowest;
     walkSegments(ray, [&](double from, double to) {
         const double middle = 0.5 * (from + to);
-        const double value = walk.value(middle);
         const LocalOptics local = walk.optics(middle);
         emission += (to - from) * local.extinction * local.color;
-        weighted += (to - from) * value;
-        lowest = std::min(lowest, value);
-        highest = std::max(highest, value);
+        weighted += (to - from) * walk.value(middle);
     });
     if (scene.mode == Mode::Emission) return done(m_medium.blended(emission, 1.0, 0.0));
-    if (scene.mode == Mode::Average) return done(m_medium.windowed(weighted / ray.visibleMm()));
-    return done(m_medium.windowed(scene.mode == Mode::Mip ? highest : lowest));
+    return done(m_medium.windowed(weighted / ray.visibleMm()));
 }
 
 }  // namespace pellucid::accuracy

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <limits>
 
 #include "accuracy/medium.h"
 #include "accuracy/segment_rules.h"
@@ -30,16 +31,23 @@ public:
         /// With running integrals, the sum of length / change of the value over the segments where it
         /// changes: what a rounding of these integrals is magnified by.
         double mmPerValue = 0.0;
+        /// Of an extreme value, how far the second of the samples is from the first, in values: rounding
+        /// decides around which of equal ones it is looked at more closely.
+        double toRunnerUp = std::numeric_limits<double>::infinity();
     };
     /// u and v in [-1, 1] (v up).
     [[nodiscard]] Pixel pixel(double u, double v) const;
 
 private:
     struct Walk;
+    struct Extremum {
+        double value, toRunnerUp;
+    };
     template <class Visit>
     void walkSegments(const ViewRay& ray, const Visit& visit) const;
     [[nodiscard]] SegmentOptics segment(Walk& walk, double from, double to) const;
     [[nodiscard]] RayIntegral sumOfSegments(Walk& walk) const;
+    [[nodiscard]] Extremum extremum(Walk& walk) const;
 
     Medium m_medium;
     double m_stepMm;

@@ -210,8 +210,11 @@ Result<std::vector<OrderRow>> verifyStepOrders(renderer::Renderer& renderer, con
                                            ? 4.0
                                            : row.expected,
                                        filter);
-                    if ((mode.value == Mode::Mip || mode.value == Mode::MinIp) && row.expected < 1.5)
-                        for (double& size : row.sizes) size *= 0.25;
+                    // Sampled more closely around the extremum, so that its errors are small.
+                    if (mode.value == Mode::Mip || mode.value == Mode::MinIp)
+                        row.sizes = row.expected < 1.5
+                                        ? std::vector{0.125, 0.0625, 0.03125, 0.015625, 0.0078125}
+                                        : std::vector{1.0, 0.7, 0.5, 0.35, 0.25};
                 }
                 for (const double size : row.sizes) {
                     if (integrator.value == Integrator::Adaptive)

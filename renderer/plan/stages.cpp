@@ -98,6 +98,7 @@ std::span<const StageVariant> stageTable() {
         {"traverse", "boundaries", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "crossings", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "plane", {"planeForward", "planeFromAnchorMm"}, {}, {"reconstruct", "compose"}},
+        {"refine", "extremum", {}, {}, {"reconstruct", "compose"}},
         {"encode", "srgb", {"transparentPicture"}, {}, {}},
     };
     return table;
@@ -316,6 +317,9 @@ StageChoice chooseStages(const Features& features) {
         leftOut.push_back({"jitter", "not asked for, or the mode has no steps of one length"});
     }
     rows.push_back(traverseRow(features));
+    if (features.mode == Mode::Mip || features.mode == Mode::MinIp)
+        rows.push_back(
+            {"refine", "extremum", "the steps miss some of the peak that the extreme value lies on"});
     if (features.space == CompositingSpace::Linear) {
         rows.push_back({"encode", "srgb", "colours are blended in linear light"});
     } else {

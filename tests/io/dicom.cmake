@@ -15,7 +15,7 @@ pellucid_test(NAME io_dicom_hostile LABELS io TIMEOUT 300
   LIBRARIES pellucid_io DCMTK::dcmdata DCMTK::dcmjpeg DCMTK::dcmjpls ZLIB::ZLIB)
 
 if(PELLUCID_CORPUS_DIR)
-  pellucid_test(NAME corpus_dicom LABELS io corpus TIMEOUT 300
+  pellucid_test(NAME corpus_dicom LABELS corpus TIMEOUT 300
     SOURCES dicom_corpus_test.cpp dicom_corpus_truth_test.cpp
     LIBRARIES pellucid_io ZLIB::ZLIB
     ENVIRONMENT PELLUCID_CORPUS=${PELLUCID_CORPUS_DIR})

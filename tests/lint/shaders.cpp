@@ -12,7 +12,7 @@ namespace pellucid::lint {
 namespace {
 
 /// renderer/shaders/README.md: which stage implements which function.
-constexpr std::array<std::pair<const char*, const char*>, 14> kFunctions = {{{"makeRay", "ray"},
+constexpr std::array<std::pair<const char*, const char*>, 15> kFunctions = {{{"makeRay", "ray"},
                                                                              {"reconstruct", "reconstruct"},
                                                                              {"classify", "classify"},
                                                                              {"gradientMm", "gradient"},
@@ -22,6 +22,7 @@ constexpr std::array<std::pair<const char*, const char*>, 14> kFunctions = {{{"m
                                                                              {"composeSample", "compose"},
                                                                              {"composeEnd", "compose"},
                                                                              {"traverse", "traverse"},
+                                                                             {"refine", "refine"},
                                                                              {"occupiedSteps", "bounds"},
                                                                              {"emptySamples", "leap"},
                                                                              {"emptySegments", "leap"},

@@ -1,15 +1,17 @@
 // Minimum intensity projection of the value, then the window.
-float least;
+float extreme;
+float extremeAt;  // where on the ray it was found
 
 void composeBegin() {
-    least = 3e38;
+    extreme = 3e38;
 }
 
 bool composeSample(float u, vec3 p, float t, float lengthMm) {
-    least = min(least, u);
+    extremeAt = u < extreme ? t : extremeAt;
+    extreme = min(extreme, u);
     return false;
 }
 
 vec4 composeEnd() {
-    return inVolume ? vec4(classify(least).rgb, 1.0) : vec4(0.0);
+    return inVolume ? vec4(classify(extreme).rgb, 1.0) : vec4(0.0);
 }

@@ -56,6 +56,9 @@ void main() {
     float tEnter, tExit;
     inVolume = intersectVolume(tEnter, tExit);
     if (inVolume) traverse(tEnter, tExit);
+    //@when refine
+    if (inVolume) refine(tEnter, tExit);
+    //@end
     vec4 result = composeEnd();
     vec3 color = result.rgb + (1.0 - result.a) * background;
     //@when encode
