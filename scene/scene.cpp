@@ -32,6 +32,10 @@ Scene completed(const Scene& scene, const std::vector<VolumePtr>& volumes) {
     return full;
 }
 
+bool keepsTolerance(Integrator integrator) {
+    return integrator == Integrator::Adaptive || integrator == Integrator::Importance;
+}
+
 double toleranceGreyLevels(const Quality& quality) {
     return quality.toleranceGreyLevels.value_or(1.0);
 }

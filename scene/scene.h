@@ -177,6 +177,8 @@ struct Scene {
 /// pointer.
 [[nodiscard]] Result<void> validate(const Scene& scene);
 
+/// Integrators whose steps follow from toleranceGreyLevels.
+[[nodiscard]] bool keepsTolerance(Integrator integrator);
 /// The error asked for, in grey levels: what is stated, or 1.
 [[nodiscard]] double toleranceGreyLevels(const Quality& quality);
 

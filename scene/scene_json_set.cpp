@@ -64,7 +64,11 @@ Result<json*> step(json& parent, const std::string& key, const std::string& poin
 void replaceAlternative(json& parent, const std::string& key) {
     if (!parent.is_object()) return;
     // As when read from a file: an error asked for lets the program choose, a step or integrator does not.
-    if (key == "toleranceGreyLevels") parent["automatic"] = parent.value("integrator", "") != "adaptive";
+    // Integrators that keep to a tolerance themselves are given it.
+    if (key == "toleranceGreyLevels") {
+        const auto integrator = enumFromName<Integrator>(parent.value("integrator", ""));
+        parent["automatic"] = !integrator || !keepsTolerance(*integrator);
+    }
     if (key == "stepVoxels" || key == "stepMm" || key == "integrator") parent.erase("automatic");
     if (key == "preset") parent.erase("transferFunction");
     if (key == "opacity") parent.erase("extinction");

@@ -203,7 +203,8 @@ Result<std::shared_ptr<const Volume>> Volume::make(Grid grid, VoxelType type, in
     volume->m_nonFinite = ranges.nonFinite;
     for (int i = 0; i < components; ++i) {
         const ValueRange range = ranges.range[static_cast<std::size_t>(i)];
-        volume->m_storedRange.push_back(range.lo <= range.hi ? range : ValueRange{0.0, 0.0});
+        volume->m_hasValues.push_back(range.lo <= range.hi);
+        volume->m_storedRange.push_back(volume->m_hasValues.back() ? range : ValueRange{0.0, 0.0});
         const ValueRange physical = volume->physicalRange(i);
         if (!std::isfinite(physical.lo) || !std::isfinite(physical.hi))
             return fail(

@@ -97,6 +97,10 @@ public:
     /// Voxel components that are NaN or infinite. The renderer and the reference draw them as the smallest
     /// finite stored value.
     [[nodiscard]] std::uint64_t nonFiniteCount() const { return m_nonFinite; }
+    /// False when no voxel has a finite number there; the ranges are those of a 0 then.
+    [[nodiscard]] bool hasValues(int component = 0) const {
+        return m_hasValues[static_cast<std::size_t>(component)];
+    }
 
     /// Stored value as it is in the file (possibly NaN). Precondition: the index lies in the grid.
     [[nodiscard]] double stored(glm::ivec3 index, int component = 0) const;
@@ -113,6 +117,7 @@ private:
     ValueMapping m_mapping;
     VolumeInfo m_info;
     std::vector<ValueRange> m_storedRange;
+    std::vector<bool> m_hasValues;
     std::uint64_t m_nonFinite = 0;
 };
 

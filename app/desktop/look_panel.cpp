@@ -149,12 +149,14 @@ void LookPanel::sync() {
     const auto mode = std::find_if(std::begin(kModes), std::end(kModes), isCurrent);
     m_mode->setCurrentIndex(mode == std::end(kModes) ? -1 : static_cast<int>(mode - std::begin(kModes)));
 
-    const bool usesCurve = usesTransferFunction(scene.mode);
+    // Several surfaces have values and colours of their own.
+    const bool hasSurfaces = scene.mode == Mode::Isosurface && !item.isosurfaces.empty();
+    const bool usesCurve = usesTransferFunction(scene.mode) && !hasSurfaces;
     m_form->setRowVisible(m_preset, usesCurve);
     m_form->setRowVisible(m_curve, usesCurve);
     m_form->setRowVisible(m_curveButtons, usesCurve);
     m_form->setRowVisible(m_density, usesTransferFunction(scene.mode) && scene.mode != Mode::Isosurface);
-    m_form->setRowVisible(m_isovalue, scene.mode == Mode::Isosurface);
+    m_form->setRowVisible(m_isovalue, scene.mode == Mode::Isosurface && !hasSurfaces);
     m_form->setRowVisible(m_hitOpacity, scene.mode == Mode::FirstHit);
     m_form->setRowVisible(m_xray, scene.mode == Mode::XRay);
 

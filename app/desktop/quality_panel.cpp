@@ -229,8 +229,8 @@ void QualityPanel::syncQuality() {
                                     : quality.stepVoxels);
     m_integrator->setCurrentIndex(static_cast<int>(quality.integrator));
 
-    const bool isAdaptive = usesIntegrator(scene.mode) && quality.integrator == Integrator::Adaptive;
-    m_form->setRowVisible(m_tolerance, quality.automatic || isAdaptive);
+    const bool followsTolerance = usesIntegrator(scene.mode) && keepsTolerance(quality.integrator);
+    m_form->setRowVisible(m_tolerance, quality.automatic || followsTolerance);
     m_form->setRowVisible(m_norm, quality.automatic);
     m_form->setRowVisible(m_step, !quality.automatic);
     m_form->setRowVisible(m_integrator, !quality.automatic && usesIntegrator(scene.mode));

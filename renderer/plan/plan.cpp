@@ -29,6 +29,10 @@ constexpr int kMaxLights = 256;  // 16 KB guaranteed for a uniform block leaves 
 
 Result<void> checkVolume(const VolumeFacts& facts, const DeviceLimits& limits) {
     if (auto valid = validate(facts.grid); !valid) return tl::unexpected(valid.error());
+    if (!facts.hasValues)
+        return fail(ErrorCode::Unsupported,
+                    "no voxel of the volume is a finite number (all are NaN or infinite): there is nothing "
+                    "to draw");
     if (!std::isfinite(facts.physicalRange.hi - facts.physicalRange.lo))
         return fail(ErrorCode::Unsupported,
                     fmt::format("the values {:g} ... {:g} span more than a float64 can hold",
@@ -180,7 +184,8 @@ VolumeFacts factsOf(const Volume& volume, int component) {
             volume.physicalRange(component),
             volume.mapping().slope < 0.0,
             stored.hi - stored.lo,
-            volume.components()};
+            volume.components(),
+            volume.hasValues(component)};
 }
 
 double turnsPerSample(const Plan& plan) {

@@ -20,6 +20,7 @@ struct VolumeFacts {
     bool descending = false;        ///< Physical values fall where stored ones rise (negative slope).
     double storedExtent = 65535.0;  ///< Largest minus smallest stored value, or more.
     int components = 1;             ///< Values of a voxel in main memory; one of them is drawn.
+    bool hasValues = true;          ///< Some voxel is a finite number.
     bool operator==(const VolumeFacts&) const = default;
 };
 [[nodiscard]] VolumeFacts factsOf(const Volume& volume, int component);

@@ -113,6 +113,9 @@ TEST(Plan, RefusalsSayWhatAndHowMuch) {
     VolumeFacts unbounded = kFacts;
     unbounded.physicalRange = {-1.7e308, 1.7e308};
     EXPECT_THAT(refusal(scene, {unbounded}), testing::HasSubstr("float64"));
+    VolumeFacts allNaN = kFacts;
+    allNaN.hasValues = false;
+    EXPECT_THAT(refusal(scene, {allNaN}), testing::HasSubstr("no voxel of the volume is a finite number"));
     scene.quality.stepMm = 1e-6;
     EXPECT_THAT(refusal(scene, {kFacts}), testing::HasSubstr("16777216"));
 }

@@ -71,6 +71,17 @@ TEST_F(PanelTest, AModeShowsOnlyWhatItUses) {
     }
 }
 
+TEST_F(PanelTest, SeveralSurfacesHaveNoUseForIsovalueAndCurve) {
+    choose("mode", QStringLiteral("Isosurface"));
+    EXPECT_TRUE(isShown("isovalue") && isShown("curveEditor") && isShown("volumePreset"));
+    document().changeItem("Surfaces", {}, [](VolumeItem& item) {
+        item.isosurfaces = {{0.0, glm::dvec3(1.0), 0.5}, {300.0, glm::dvec3(1.0), 1.0}};
+    });
+    EXPECT_FALSE(isShown("isovalue") || isShown("curveEditor") || isShown("volumePreset"));
+    choose("mode", QStringLiteral("Composite"));
+    EXPECT_TRUE(isShown("curveEditor")) << "they belong to another mode";
+}
+
 TEST_F(PanelTest, UndoAndRedoGiveNamesAndValuesBackExactly) {
     std::vector<std::pair<std::string, Scene>> history;
     const auto remember = [&] {
@@ -174,7 +185,7 @@ TEST_F(PanelTest, EveryIntegratorCanBeChosenWhereItCounts) {
     for (const auto& integrator : integrators) {
         choose("integrator", box->itemText(static_cast<int>(integrator.value)));
         EXPECT_EQ(document().scene().quality.integrator, integrator.value);
-        EXPECT_EQ(isShown("tolerance"), integrator.value == Integrator::Adaptive);
+        EXPECT_EQ(isShown("tolerance"), keepsTolerance(integrator.value));
     }
     choose("mode", QStringLiteral("Maximum (MIP)"));
     EXPECT_FALSE(isShown("integrator") || isShown("tolerance")) << "a maximum is not integrated";

@@ -176,6 +176,8 @@ TEST(WithSetting, AnErrorAskedForLetsTheProgramChoose) {
     EXPECT_TRUE(automatic({{"quality.toleranceGreyLevels", "2"}}));
     EXPECT_FALSE(automatic({{"quality.toleranceGreyLevels", "2"}, {"quality.stepVoxels", "1"}}));
     EXPECT_FALSE(automatic({{"quality.integrator", "adaptive"}, {"quality.toleranceGreyLevels", "2"}}));
+    EXPECT_FALSE(automatic({{"quality.integrator", "importance"}, {"quality.toleranceGreyLevels", "2"}}));
+    EXPECT_TRUE(automatic({{"quality.integrator", "simpson"}, {"quality.toleranceGreyLevels", "2"}}));
     EXPECT_FALSE(automatic({{"quality.toleranceGreyLevels", "2"}, {"quality.automatic", "false"}}));
     const auto read = [](const char* text) { return sceneFromText(text).value().quality.automatic; };
     EXPECT_TRUE(read(R"({"pellucid": 1, "quality": {"toleranceGreyLevels": 2}})"));

@@ -63,6 +63,8 @@ TEST(Volume, ValuesThatAreNotFiniteAreCountedAndLeftOut) {
     EXPECT_TRUE(std::isnan(volume->stored({0, 0, 0})));
     const VolumePtr none = makeVolume<double>({2, 1, 1}, {std::nan(""), std::nan("")});
     EXPECT_EQ(none->storedRange(), (ValueRange{0, 0}));
+    EXPECT_TRUE(volume->hasValues());
+    EXPECT_FALSE(none->hasValues());
     EXPECT_EQ(none->nonFiniteCount(), 2u);
 }
 
