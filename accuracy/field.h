@@ -9,10 +9,10 @@
 
 namespace pellucid::accuracy {
 
-/// The continuous field that a filter makes of a voxel grid, physical values in double.
-/// The field is one polynomial per cell, so an evaluation names the cell: a point on the border of two cells
-/// then has the value of the side it is meant on, and integrals and roots inside a cell never straddle a kink
-/// or a jump.
+/// The continuous field that a filter makes of a voxel grid (docs/equations.md, 17), physical values in
+/// double. The field is one polynomial per cell, so an evaluation names the cell: a point on the border of
+/// two cells then has the value of the side it is meant on, and integrals and roots inside a cell never
+/// straddle a kink or a jump.
 class Field {
 public:
     /// Non-finite voxels take the smallest finite stored value. Precondition: the component exists.

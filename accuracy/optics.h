@@ -9,7 +9,7 @@
 
 namespace pellucid::accuracy {
 
-/// Colour (unassociated, compositing space) and extinction per mm at a point.
+/// Colour (unassociated, compositing space) and extinction per mm at a point (docs/equations.md, 2).
 struct LocalOptics {
     glm::dvec3 color{0.0};
     double extinction = 0.0;

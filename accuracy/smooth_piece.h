@@ -9,7 +9,7 @@
 
 #include "accuracy/medium.h"
 
-/// Emission and absorption over pieces of a ray on which everything is smooth.
+/// Emission and absorption (docs/equations.md, 4) over pieces of a ray on which everything is smooth.
 namespace pellucid::accuracy {
 
 /// What a ray through the medium has met, in the compositing space.

@@ -34,6 +34,7 @@ struct OrderRow {
         sizes{};  ///< What was refined: step in voxels, voxel or pixel in mm, tolerance in grey levels.
     std::vector<double> errors{};  ///< Mean absolute error over pixels and RGB; Independent: the largest, in
                                    ///< display units or (tolerance) in units of the tolerance.
+    std::string rays{"oblique"};   ///< "oblique" and parallel, "perspective", "along an axis".
 
     /// Slope of log error over log size; Independent: the largest error.
     [[nodiscard]] double observed() const;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/verification.h"
+#include "accuracy/verify_scenes.h"
 
 namespace pellucid::accuracy {
 namespace {
@@ -42,17 +43,19 @@ VerificationLine lineOf(const OrderRow& row) {
                           observedText(row), row.passed(), row.reason};
     for (const std::string& part : {row.integrator, row.filter})
         if (!part.empty()) line.name += ", " + part;
+    if (row.rays != raysName(Rays::Oblique)) line.name += ", " + row.rays;
     line.theory = (row.claim == Claim::Independent ? "error " : "order ") + line.theory;
     return line;
 }
 
 std::string orderText(std::span<const OrderRow> rows) {
-    std::string text = fmt::format("{:<10} {:<10} {:<18} {:<16} {:>13} {:>9} {:>9}  {}\n", "refined", "mode",
-                                   "integrator", "filter", "expected", "observed", "error", "result");
+    constexpr const char* kLine = "{:<10} {:<10} {:<18} {:<16} {:<13} {:>13} {:>9} {:>9}  {}{}{}\n";
+    std::string text = fmt::format(fmt::runtime(kLine), "refined", "mode", "integrator", "filter", "rays",
+                                   "expected", "observed", "error", "result", "", "");
     for (const OrderRow& row : rows)
-        text += fmt::format("{:<10} {:<10} {:<18} {:<16} {:>13} {:>9} {:>9.1e}  {}{}{}\n", row.refinement,
-                            row.mode, row.integrator.empty() ? "-" : row.integrator, row.filter,
-                            expectedText(row), observedText(row), row.errors.back(),
+        text += fmt::format(fmt::runtime(kLine), row.refinement, row.mode,
+                            row.integrator.empty() ? "-" : row.integrator, row.filter, row.rays,
+                            expectedText(row), observedText(row), fmt::format("{:.1e}", row.errors.back()),
                             row.passed() ? "pass" : "FAIL", row.reason.empty() ? "" : "  ", row.reason);
     const auto failed =
         std::count_if(rows.begin(), rows.end(), [](const OrderRow& row) { return !row.passed(); });
@@ -69,6 +72,7 @@ nlohmann::ordered_json orderJson(std::span<const OrderRow> rows) {
                                 {"mode", row.mode},
                                 {"integrator", row.integrator},
                                 {"filter", row.filter},
+                                {"rays", row.rays},
                                 {"claim", claimName(row.claim)},
                                 {"expected", row.expected},
                                 {"tolerance", row.tolerance},

@@ -16,6 +16,8 @@ namespace {
 
 const glm::dvec3 kPerMm = std::numbers::pi / kVerifyBoxMm;
 constexpr int kFineVoxels = 24;
+// Eye from the middle of the box, whose corners are 25 mm away.
+constexpr double kPerspectiveMm = 40.0;
 // The function's line: colour and extinction per mm at its two ends, beyond every value.
 constexpr double kFrom = -0.5;
 constexpr double kTo = 1.5;
@@ -75,7 +77,12 @@ glm::dvec3 verifyColor(double value) {
     return kColorFrom + share(value) * (kColorTo - kColorFrom);
 }
 
-Scene verifyScene(Mode mode, Filter filter, int pixels, double heightMm) {
+const char* raysName(Rays rays) {
+    constexpr std::array<const char*, 3> kNames{"oblique", "perspective", "along an axis"};
+    return kNames[static_cast<std::size_t>(rays)];
+}
+
+Scene verifyScene(Mode mode, Filter filter, int pixels, double heightMm, Rays rays) {
     Scene scene;
     VolumeItem item;
     item.filter = filter;
@@ -89,10 +96,12 @@ Scene verifyScene(Mode mode, Filter filter, int pixels, double heightMm) {
     if (mode == Mode::Isosurface || mode == Mode::FirstHit) scene.lights->emplace_back();
     scene.hitOpacity = opacityFromExtinction(verifyExtinction(kVerifyIsovalue));
     scene.unitLengthMm = 1.0;
-    scene.camera.projection = Projection::Orthographic;
-    const glm::dvec3 unit = glm::normalize(kVerifyForward);
-    scene.camera.pose =
-        CameraPose{-4.0 * kVerifyBoxMm.z * unit, glm::dvec3(0.0), glm::dvec3(0, 0, 1), heightMm};
+    const bool isPerspective = rays == Rays::Perspective;
+    scene.camera.projection = isPerspective ? Projection::Perspective : Projection::Orthographic;
+    const glm::dvec3 unit = rays == Rays::AlongAxis ? glm::dvec3(0, 1, 0) : glm::normalize(kVerifyForward);
+    const double distance = isPerspective ? kPerspectiveMm : 4.0 * kVerifyBoxMm.z;
+    scene.camera.pose = CameraPose{-distance * unit, glm::dvec3(0.0), glm::dvec3(0, 0, 1), heightMm};
+    if (isPerspective) scene.camera.fovDeg = glm::degrees(2.0 * std::atan(0.5 * heightMm / kPerspectiveMm));
     // Errors show best where much is seen but not all is opaque.
     scene.densityScale = mode == Mode::XRay ? 0.4 : mode == Mode::Composite ? 2.0 : 1.0;
     scene.quality.earlyTermination = 0.0;

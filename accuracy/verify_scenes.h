@@ -33,9 +33,18 @@ inline constexpr double kVerifyIsovalue = 0.4;
 [[nodiscard]] VolumePtr wavesVolume();
 [[nodiscard]] VolumePtr roughVolume();
 
-/// A transfer function with one linear piece over every value that occurs, so that it adds no kink; parallel
-/// rays, no early termination; surfaces lit by a headlight.
-[[nodiscard]] Scene verifyScene(Mode mode, Filter filter, int pixels, double heightMm);
+enum class Rays {
+    Oblique,      ///< Parallel, along kVerifyForward.
+    Perspective,  ///< From outside the box, 11 degrees apart at the picture's edges from the middle.
+    AlongAxis  ///< Parallel to y: all of them meet voxel centres, where trilinear has kinks, at multiples of
+               ///< 1/2 voxel.
+};
+[[nodiscard]] const char* raysName(Rays rays);
+
+/// A transfer function with one linear piece over every value that occurs, so that it adds no kink; no early
+/// termination; surfaces lit by a headlight. The picture is heightMm high in the middle of the box.
+[[nodiscard]] Scene verifyScene(Mode mode, Filter filter, int pixels, double heightMm,
+                                Rays rays = Rays::Oblique);
 
 /// Its extinction per mm and colour at a value.
 [[nodiscard]] double verifyExtinction(double value);

@@ -69,7 +69,7 @@ Command addVerifyCommand(CLI::App& program) {
         "Draws known fields at finer and finer steps, voxels and pixels, and compares the order at which the "
         "error "
         "falls with\n"
-        "theory, for every mode, integrator and filter; some 40 seconds. Exit status 0 when all pass, 1 when "
+        "theory, for every mode, integrator and filter; about a minute. Exit status 0 when all pass, 1 when "
         "one "
         "fails.\n\n"
         "Examples:\n"

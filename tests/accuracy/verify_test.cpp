@@ -68,7 +68,7 @@ TEST_F(Verify, EveryObservedOrderIsAsTheorySays) {
         accuracy::verify(gpu(), {}, {}, [&](const accuracy::VerificationLine&) { ++found; });
     ASSERT_TRUE(verification && verification->orders);
     EXPECT_FALSE(verification->extremes);
-    EXPECT_GE(verification->orders->size(), 160u);
+    EXPECT_GE(verification->orders->size(), 240u);
     EXPECT_EQ(found, verification->orders->size());
     EXPECT_TRUE(verification->passed()) << accuracy::verificationText(*verification);
 }
