@@ -12,7 +12,7 @@ namespace pellucid::accuracy {
 namespace {
 
 // Shares of the time, about.
-constexpr double kStepSeconds = 40.0, kGridSeconds = 20.0, kPixelSeconds = 40.0, kExtremeSeconds = 60.0;
+constexpr double kStepSeconds = 40.0, kGridSeconds = 20.0, kPixelSeconds = 40.0, kExtremeSeconds = 10.0;
 
 /// Progress of parts that follow each other, as that of the whole.
 class Parts {

@@ -27,19 +27,25 @@ struct PictureError {
 [[nodiscard]] Integrator withoutTable(Integrator integrator);
 
 /// The scene with a quarter of the step and nothing else that is known to be inexact; `plan` is the scene's.
+/// Composite and X-ray pictures are compared with running integrals, which miss no peak of the function
+/// between two samples; but those of rules of order 4 with themselves, where no control point lies within the
+/// values that occur and they are better.
 [[nodiscard]] Scene comparison(const Scene& scene, const Plan& plan);
+/// The same by the scene's own rule. Takes fewer turns of a driver's loop where that rule does, so it may be
+/// drawn where the plan refuses comparison().
+[[nodiscard]] Scene comparisonWithItself(const Scene& scene, const Plan& plan);
 /// A difference of pictures of `plan`'s scene as its error, with the bounds that the plan knows.
 [[nodiscard]] ErrorEstimate errorOf(PictureError difference, const ImageF& picture, const Plan& plan,
                                     std::string method);
 /// The error of the picture of `plan`'s scene, of which `better` is the comparison's.
 [[nodiscard]] ErrorEstimate errorBeside(const ImageF& better, const ImageF& picture, const Plan& plan);
 
-/// The error of a picture by comparison with a better one: the scene is drawn again with a quarter of the
-/// step and without what else may be wrong (early termination, low accumulation formats, the adaptive rule's
-/// tolerance), and the difference times 1.15 is the estimate. For a rule of order 1, 2 or 4 the error
-/// is 1.33, 1.07 or 1.00 differences, for independent errors (jumps) about 0.97. `picture` is compared as it
-/// is; without it the scene is drawn with both steps at a size divided by `reduction`. Modes without a step
-/// (slice) have no such error.
+/// The error of a picture by comparison with a better one (docs/equations.md, 19): the scene is drawn again
+/// with a quarter of the step (comparison()) and without what else may be wrong (early termination, low
+/// accumulation formats, the adaptive rule's tolerance), and the difference times 1.15 is the estimate. For a
+/// rule of order 1, 2 or 4 the error is 1.33, 1.07 or 1.00 differences, for independent errors (jumps) about
+/// 0.97. `picture` is compared as it is; without it the scene is drawn with both steps at a size divided by
+/// `reduction`. Modes without a step (slice) have no such error.
 [[nodiscard]] Result<ErrorEstimate> estimateError(const Scene& scene, const Plan& plan, const ImageF* picture,
                                                   int reduction, const DrawScene& draw);
 

@@ -48,11 +48,21 @@ Refinement::Refinement(Scene scene, const std::optional<Quality>& chosen, double
 
 Scene Refinement::next() const {
     PELLUCID_CHECK(!isDone());
-    if (m_stage == Stage::Comparison) return comparison(m_scene, m_shown->plan);
+    if (m_stage == Stage::Comparison)
+        return m_comparesWithItself ? comparisonWithItself(m_scene, m_shown->plan)
+                                    : comparison(m_scene, m_shown->plan);
     Scene scene = m_scene;
     if (m_stage == Stage::FourSteps) scene.quality = withStepTimes(m_stated, 4.0);
     if (m_stage == Stage::TwoSteps) scene.quality = withStepTimes(m_stated, 2.0);
     return scene;
+}
+
+void Refinement::giveUp() {
+    PELLUCID_CHECK(isMeasuring());
+    if (!std::exchange(m_comparesWithItself, true) &&
+        comparisonWithItself(m_scene, m_shown->plan) != comparison(m_scene, m_shown->plan))
+        return;
+    m_stage = Stage::Done;
 }
 
 std::shared_ptr<const Frame> Refinement::take(Frame frame) {

@@ -41,8 +41,9 @@ public:
     [[nodiscard]] Scene next() const;
     /// Takes the frame of next(); gives the one to show now, with what is known of its error.
     std::shared_ptr<const Frame> take(Frame frame);
-    /// Ends it without the frame of next(), which could not be drawn: a device may refuse so short a step.
-    void giveUp() { m_stage = Stage::Done; }
+    /// Goes on without the frame of next(), which could not be drawn: a device may refuse so short a step,
+    /// and still allow the scene's own rule with it. Precondition: isMeasuring().
+    void giveUp();
     /// What the last picture taken tells of pictures in passing; nothing before the first.
     [[nodiscard]] const std::optional<PassingErrors>& passingErrors() const { return m_passingErrors; }
 
@@ -53,6 +54,7 @@ private:
     Scene m_scene;
     Quality m_stated;  ///< The scene's, or what was chosen for it before; never automatic.
     Stage m_stage = Stage::FourSteps;
+    bool m_comparesWithItself = false;
     std::shared_ptr<const Frame> m_shown;
     std::optional<PassingErrors> m_passingErrors;
     std::optional<double> m_twoFromFour;  ///< RMSE of the pictures with twice and four times the step.

@@ -244,10 +244,10 @@ Result<Plan> Renderer::State::planFor(const Scene& scene, const std::vector<Volu
 
 Result<Plan> Renderer::State::planWithEstimate(const Scene& scene,
                                                const std::vector<VolumePtr>& volumes) const {
-    Scene finer = scene;
-    finer.quality.stepVoxels *= kComparisonStep;
-    if (auto plan = planFor(finer, volumes); !plan) return plan;
-    return planFor(scene, volumes);
+    auto plan = planFor(scene, volumes);
+    if (!plan || scene.mode == Mode::Slice || planFor(comparison(scene, *plan), volumes)) return plan;
+    if (auto finer = planFor(comparisonWithItself(scene, *plan), volumes); !finer) return finer;
+    return plan;
 }
 
 Result<Frame> Renderer::State::drawStated(const Scene& scene, const std::vector<VolumePtr>& volumes,

@@ -119,6 +119,7 @@ void RenderService::draw(renderer::Renderer& drawer, std::unique_ptr<Job> job, c
     Reply reply = replyTo(*job);
     if (!frame && !wasStopped && job->refinement && job->refinement->isMeasuring()) {
         job->refinement->giveUp();
+        reply.isFinal = job->refinement->isDone();
         reply.frame = job->shown;
         reply.picture = job->picture;
     } else if (frame) {

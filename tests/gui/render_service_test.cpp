@@ -89,6 +89,8 @@ TEST_F(RenderServiceTest, AnErrorThatCannotBeMeasuredLeavesThePicture) {
     auto renderer = renderer::Renderer::headless().value();
     Scene scene = scan.scene;
     scene.picture.size = {16, 16};
+    // What pictures are compared with: another rule may take more turns a sample than this one.
+    scene.quality.integrator = Integrator::IntegralFunctions;
     scene.quality.stepVoxels = 1.0;
     while (renderer.render(scene, scan.volumes) && scene.quality.stepVoxels > 1e-9)
         scene.quality.stepVoxels /= 2.0;
