@@ -17,7 +17,8 @@ struct RenderOptions {
     bool estimateError = false;  ///< Frame::error.
     /// Divides width and height of the pictures the estimate is made from (pictures of 64 pixels are not
     /// reduced). 1 takes four frames' time beside the frame and sees every pixel; 2 takes 5/4 and 4 takes
-    /// 5/16 of a frame, and the largest error may be at a pixel they do not see.
+    /// 5/16 of a frame, about twice that where running integrals stand in for midpoint sums, and the largest
+    /// error may be at a pixel they do not see.
     int estimateReduction = 2;
     /// A pre-integration table may be a quick one while the exact one is made (Frame::preview).
     bool allowPreview = false;

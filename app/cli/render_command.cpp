@@ -47,7 +47,7 @@ Command addRenderCommand(CLI::App& program) {
         ->required();
     command->add_flag("--float", arguments->alsoFloat, "Beside a .png, write the float picture as .npy too");
     command->add_flag("--no-error", arguments->noError,
-                      "Leave out the error estimate, which costs about as much again as the picture");
+                      "Leave out the error estimate, which costs once to twice the time of the picture");
     command->footer(
         "Prints the picture's size, the time to draw it, and how wrong it is: the difference to the picture "
         "of a quarter of the\n"
