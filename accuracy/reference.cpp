@@ -70,6 +70,13 @@ double largestDifference(const Pixels& a, const Pixels& b) {
     return result;
 }
 
+double rmsDifference(const Pixels& a, const Pixels& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel) sum += std::pow(a[i][channel] - b[i][channel], 2.0);
+    return std::sqrt(sum / (3.0 * static_cast<double>(a.size())));
+}
+
 ImageF imageOf(const Pixels& pixels, glm::ivec2 size) {
     ImageF image{size, {}};
     image.pixels.reserve(pixels.size());
@@ -100,6 +107,7 @@ Result<Reference> referencePicture(const Scene& scene, const std::vector<VolumeP
 
     double step = stepMm(complete->quality, volumes.front()->grid());
     double reached = std::numeric_limits<double>::infinity();
+    double reachedRmse = reached;
     auto pixels = drawn(integrator, size, step, options.progress);
     if (!pixels) return tl::unexpected<Error>(pixels.error());
     for (int halving = 0; halving < options.maxHalvings && !(reached < options.bound); ++halving) {
@@ -107,9 +115,10 @@ Result<Reference> referencePicture(const Scene& scene, const std::vector<VolumeP
         auto finer = drawn(integrator, size, step, options.progress);
         if (!finer) return tl::unexpected<Error>(finer.error());
         reached = largestDifference(*pixels, *finer);
+        reachedRmse = rmsDifference(*pixels, *finer);
         pixels = std::move(finer);
     }
-    return Reference{imageOf(*pixels, size), reached, step};
+    return Reference{imageOf(*pixels, size), reached, reachedRmse, step};
 }
 
 }  // namespace pellucid::accuracy

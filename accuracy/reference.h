@@ -13,6 +13,7 @@ namespace pellucid::accuracy {
 struct Reference {
     ImageF image;               ///< Same conventions as the renderer's.
     double reachedBound = 0.0;  ///< Largest difference of the last two pictures, in display units.
+    double reachedRmse = 0.0;   ///< Root mean square of that difference, over RGB.
     double stepMm = 0.0;        ///< Of the last picture.
 };
 

@@ -60,6 +60,7 @@ struct ReferenceKind {
 struct ReferenceFacts {
     ReferenceKind kind;
     double reachedBound = 0.0;  ///< Largest difference of its last two pictures.
+    double reachedRmse = 0.0;   ///< Root mean square of that difference.
     double stepMm = 0.0;
     double ms = 0.0;
 };
@@ -98,8 +99,17 @@ struct ReportScope {
     bool jitter = true;   ///< With and without jittered starts of rays.
     bool crossed = true;  ///< Every combination; else other filters and formats with one integrator only.
     bool peers = false;
-    std::optional<double> budgetSeconds;  ///< Nothing new is begun after this time.
+    double mostFrameSeconds = 10.0;       ///< Settings expected to take longer are left out.
+    double mostReferenceSeconds = 900.0;  ///< So are filters whose reference is.
+    double warmSeconds = 3.0;             ///< After this, one warm frame is enough.
+    std::optional<double> budgetSeconds;  ///< Nothing is begun that is not expected to end by then.
     std::vector<std::string> reductions;  ///< Sentences: what was left out to be quick.
+};
+
+/// A setting that was not measured.
+struct LeftOut {
+    ReportSetting setting;
+    std::string why;
 };
 
 /// Everything measured, before any conclusion.
@@ -114,6 +124,7 @@ struct ReportData {
     int planned = 0;  ///< Settings in the plan; measurements.size() is less when the report was stopped.
     std::vector<ReferenceFacts> references;
     std::vector<Measurement> measurements;  ///< In the order of the plan.
+    std::vector<LeftOut> leftOut;
     std::vector<Stall> stalls;
     std::vector<std::string>
         notes;  ///< What a reader must know: peers that could not be measured, for example.

@@ -73,6 +73,13 @@ std::string intro(const ReportData& data) {
     fact("Rays",
          fmt::format("end when at most {:g} of the light can still pass, so that errors are the integrator's",
                      kReportTermination));
+    std::string reached;
+    for (const ReferenceFacts& r : data.references)
+        reached +=
+            fmt::format("; {} {:.1e} (RMSE {:.1e})", referenceName(r.kind), r.reachedBound, r.reachedRmse);
+    if (!reached.empty())
+        fact("References", "last two pictures, at half the step, differ by at most" + reached.substr(1) +
+                               "; smaller errors than these say nothing");
     html += "</dl>\n";
     for (const std::string& note : data.notes) html += "<p>" + escaped(note) + "</p>\n";
     if (!data.scope.reductions.empty()) {
@@ -185,13 +192,36 @@ std::string referenceTable(const ReportData& data) {
     std::string rows;
     for (const ReferenceFacts& r : data.references)
         rows += row({referenceName(r.kind), fmt::format("{:.1e}", r.reachedBound),
-                     fmt::format("{:.4g}", r.stepMm), fmt::format("{:.1f}", r.ms / 1000.0)});
+                     fmt::format("{:.1e}", r.reachedRmse), fmt::format("{:.4g}", r.stepMm),
+                     fmt::format("{:.1f}", r.ms / 1000.0)});
     return heading("references", "References") +
            "<p>Drawn in double precision on the processor by independent code, the step halved until two "
            "pictures differ by "
            "less than a bound. Each filter has its own; VTK's volume ends at the outer voxel centres, half a "
            "voxel inside ours, and so its pictures have one too.</p>\n" +
-           table({"filter", "largest difference of the last two", "step, mm", "s"}, rows);
+           table({"filter", "largest difference of the last two", "their RMSE", "step, mm", "s"}, rows);
+}
+
+/// Neighbours in the plan with the same reason share a line.
+std::string leftOutTable(const ReportData& data) {
+    if (data.leftOut.empty()) return {};
+    std::string rows;
+    for (std::size_t i = 0; i < data.leftOut.size();) {
+        std::size_t end = i + 1;
+        while (end < data.leftOut.size() && data.leftOut[end].why == data.leftOut[i].why) ++end;
+        const std::string first = settingName(data.leftOut[i].setting);
+        const std::string last = settingName(data.leftOut[end - 1].setting);
+        rows += fmt::format("<tr><td>{}{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n", escaped(first),
+                            end - i > 1 ? " &hellip; " + escaped(last) : "", end - i,
+                            escaped(data.leftOut[i].why));
+        i = end;
+    }
+    return heading("left-out", "Left out") +
+           fmt::format(
+               "<p>Settings that were not measured: a frame may take {:g} s, a reference {:g} min. "
+               "Expected from the same curve's longer steps, and from a small reference.</p>\n",
+               data.scope.mostFrameSeconds, data.scope.mostReferenceSeconds / 60.0) +
+           table({"from &hellip; to", "settings", "why"}, rows);
 }
 
 std::string measurementTable(const ReportData& data) {
@@ -271,7 +301,7 @@ std::string reportHtml(const ReportData& data, const ReportAnalysis& analysis,
         if (figure.plot.id == "work-precision") html += timeToErrorTable(analysis);
     }
     html += orderTable(analysis) + frontTables(data, analysis) + toleranceTable(data) + stallTable(data) +
-            pictures(data, readPicture) + referenceTable(data) + measurementTable(data);
+            pictures(data, readPicture) + referenceTable(data) + leftOutTable(data) + measurementTable(data);
     return html + "</body></html>\n";
 }
 

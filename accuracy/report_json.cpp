@@ -68,6 +68,8 @@ Json scopeJson(const ReportScope& scope) {
             {"warmFrames", scope.warmFrames},
             {"earlyTermination", kReportTermination},
             {"peers", scope.peers},
+            {"mostFrameSeconds", scope.mostFrameSeconds},
+            {"mostReferenceSeconds", scope.mostReferenceSeconds},
             {"reductions", scope.reductions}};
 }
 
@@ -181,6 +183,7 @@ Json reportJson(const ReportData& data, const ReportAnalysis& analysis) {
         references.push_back({{"filter", name(r.kind.filter)},
                               {"name", referenceName(r.kind)},
                               {"reachedBound", r.reachedBound},
+                              {"reachedRmse", r.reachedRmse},
                               {"stepMm", r.stepMm},
                               {"time", {{"ms", r.ms}}}});
     Json measurements = Json::array();
@@ -191,6 +194,9 @@ Json reportJson(const ReportData& data, const ReportAnalysis& analysis) {
     }
     Json series = Json::array();
     for (const ReportSeries& s : analysis.series) series.push_back(seriesJson(data, s));
+    Json leftOut = Json::array();
+    for (const LeftOut& l : data.leftOut)
+        leftOut.push_back({{"setting", settingName(l.setting)}, {"why", l.why}});
     return {{"pellucidReport", 1},
             {"scene",
              {{"name", data.name},
@@ -212,7 +218,7 @@ Json reportJson(const ReportData& data, const ReportAnalysis& analysis) {
             {"measurements", measurements},
             {"series", series},
             {"stalls", stallsJson(data.stalls)},
-            {"time", {{"paretoFronts", frontsJson(data, analysis)}}}};
+            {"time", {{"paretoFronts", frontsJson(data, analysis)}, {"leftOut", leftOut}}}};
 }
 
 std::string reportCsv(const ReportData& data, const ReportAnalysis& analysis) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 #include "accuracy/machine_info.h"
 #include "accuracy/metrics.h"
@@ -65,25 +66,24 @@ public:
         withoutUselessPeers(settings, data);
         data.planned = static_cast<int>(settings.size());
         if (auto stalls = addStalls(data); !stalls) return stalls;
-        bool timeIsUp = false;
         for (std::size_t i = 0; i < settings.size(); ++i) {
             const ReportSetting& setting = settings[i];
             m_fraction = static_cast<double>(i) / static_cast<double>(settings.size());
             m_what = settingName(setting);
             const nlohmann::json* known = m_store.find(keyOf(setting));
-            if (known == nullptr && timeIsUp) continue;
             if (known == nullptr) {
+                auto why = whyLeftOut(setting, data);
+                if (!why) return tl::unexpected(why.error());
+                if (*why) {
+                    data.leftOut.push_back({setting, **why});
+                    continue;
+                }
                 if (auto done = measureOne(setting); !done) return done;
                 known = m_store.find(keyOf(setting));
             }
             if (auto measurement = measurementFromJson(*known)) data.measurements.push_back(*measurement);
-            timeIsUp = m_job.scope.budgetSeconds && msSince(m_start) > 1000.0 * *m_job.scope.budgetSeconds;
         }
         addReferences(data);
-        if (data.measurements.size() < settings.size())
-            data.notes.push_back(fmt::format(
-                "The time was up after {} of {} settings; running the same command again measures the rest.",
-                data.measurements.size(), settings.size()));
         return {};
     }
 
@@ -101,6 +101,55 @@ private:
         return [this](double, std::string_view what) {
             return goOn(m_job.progress, m_fraction, fmt::format("{} ({})", m_what, what));
         };
+    }
+
+    /// Seconds of one frame, from the curve's coarser settings: in proportion to the samples, and with half
+    /// the tolerance as at order 1. 0: nothing is known yet.
+    static double expectedFrameSeconds(const ReportSetting& setting, const ReportData& data) {
+        for (auto m = data.measurements.rbegin(); m != data.measurements.rend(); ++m)
+            if (seriesName(m->setting) == seriesName(setting))
+                return 1e-3 * m->wallMs *
+                       (setting.tolerance ? *m->setting.tolerance / *setting.tolerance
+                                          : m->setting.stepVoxels / setting.stepVoxels);
+        return 0.0;
+    }
+
+    /// Measured on a picture with 1/64 of the pixels; 0 for one that is there already.
+    Result<double> expectedReferenceSeconds(const ReferenceKind& kind) {
+        if (m_store.find(referenceKey(kind)) != nullptr) return 0.0;
+        const glm::ivec2 size = m_job.scope.pictureSize;
+        const glm::ivec2 small = glm::max(size / 8, glm::ivec2(1));
+        const auto start = Clock::now();
+        const auto tried = drawReference(m_job.scene, m_job.volume, kind, small, referenceOptions());
+        if (!tried) return tl::unexpected(tried.error());
+        return 1e-3 * msSince(start) * size.x * size.y / (static_cast<double>(small.x) * small.y);
+    }
+
+    /// Nothing when the setting is to be measured now.
+    Result<std::optional<std::string>> whyLeftOut(const ReportSetting& setting, const ReportData& data) {
+        const ReportScope& scope = m_job.scope;
+        const double frame = expectedFrameSeconds(setting, data);
+        if (frame > scope.mostFrameSeconds)
+            return std::optional(fmt::format("a frame would take about {:.0f} s", frame));
+        const ReferenceKind kind = referenceOf(setting, m_job.scene);
+        const std::string key = referenceKey(kind);
+        if (!m_referenceSeconds.contains(key)) {
+            const auto seconds = expectedReferenceSeconds(kind);
+            if (!seconds) return tl::unexpected(seconds.error());
+            m_referenceSeconds[key] = *seconds;
+        }
+        const bool isThere = m_store.find(key) != nullptr;
+        const double reference = isThere ? 0.0 : m_referenceSeconds[key];
+        if (reference > scope.mostReferenceSeconds)
+            return std::optional(fmt::format("its reference would take about {:.0f} min", reference / 60.0));
+        if (!scope.budgetSeconds) return std::nullopt;
+        // A first frame compiles; what is not known is taken for short.
+        constexpr double kCompilation = 0.5;
+        const double frames =
+            std::max(2.0 * frame, std::min((1 + scope.warmFrames) * frame, scope.warmSeconds));
+        const double left = *scope.budgetSeconds - 1e-3 * msSince(m_start);
+        if (reference + kCompilation + frames <= left) return std::nullopt;
+        return std::optional<std::string>("the time was up; the same command again measures it");
     }
 
     void withoutUselessPeers(std::vector<ReportSetting>& settings, ReportData& data) const {
@@ -134,7 +183,8 @@ private:
         for (const ReferenceKind& kind : kinds)
             if (const nlohmann::json* known = m_store.find(referenceKey(kind)))
                 data.references.push_back({kind, known->value("reachedBound", 0.0),
-                                           known->value("stepMm", 0.0), known->value("ms", 0.0)});
+                                           known->value("reachedRmse", 0.0), known->value("stepMm", 0.0),
+                                           known->value("ms", 0.0)});
     }
 
     /// Kept in memory one at a time, and in a file for the next run.
@@ -153,16 +203,23 @@ private:
         return &*m_reference;
     }
 
-    Result<void> makeReference(const ReferenceKind& kind, const std::filesystem::path& file) {
+    ReferenceOptions referenceOptions() const {
         ReferenceOptions options;
         options.bound = m_job.scope.referenceBound;
         options.maxHalvings = m_job.scope.referenceHalvings;
         options.progress = progress();
+        return options;
+    }
+
+    Result<void> makeReference(const ReferenceKind& kind, const std::filesystem::path& file) {
         const auto start = Clock::now();
-        auto reference = drawReference(m_job.scene, m_job.volume, kind, m_job.scope.pictureSize, options);
+        auto reference =
+            drawReference(m_job.scene, m_job.volume, kind, m_job.scope.pictureSize, referenceOptions());
         if (!reference) return tl::unexpected(reference.error());
-        const nlohmann::json facts{
-            {"reachedBound", reference->reachedBound}, {"stepMm", reference->stepMm}, {"ms", msSince(start)}};
+        const nlohmann::json facts{{"reachedBound", reference->reachedBound},
+                                   {"reachedRmse", reference->reachedRmse},
+                                   {"stepMm", reference->stepMm},
+                                   {"ms", msSince(start)}};
         if (auto written = m_job.files.writeFloat(file, reference->image); !written) return written;
         if (auto written = m_job.files.writePng(m_job.folder / "pictures" / referenceFile(kind),
                                                 quantise(reference->image, false, false));
@@ -180,8 +237,7 @@ private:
         options.progress = progress();
         const auto start = Clock::now();
         for (int frame = 0; frame <= m_job.scope.warmFrames; ++frame) {
-            // A slow setting must not keep a quick report: one warm frame it gets in any case.
-            if (m_job.scope.budgetSeconds && frame > 1 && msSince(start) > 1500.0) break;
+            if (frame > 1 && msSince(start) > 1000.0 * m_job.scope.warmSeconds) break;
             const auto frameStart = Clock::now();
             auto result = m_renderer.render(scene, {m_job.volume}, options);
             if (!result) return tl::unexpected(result.error());
@@ -247,6 +303,7 @@ private:
     Clock::time_point m_start;
     std::optional<ImageF> m_reference;
     ReferenceKind m_referenceKind;
+    std::map<std::string, double> m_referenceSeconds;  ///< Expected, by key.
     double m_fraction = 0.0;
     std::string m_what;
 };

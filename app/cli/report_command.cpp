@@ -27,6 +27,7 @@ struct ReportArguments {
     std::string folder;
     bool quick = false;
     bool peers = false;
+    std::optional<double> budgetMinutes;
 };
 
 Result<void> writeText(const fs::path& file, const std::string& text) {
@@ -58,8 +59,12 @@ std::string nameOf(const InputArguments& input, const Volume& volume) {
 void printSummary(const fs::path& folder, const accuracy::ReportData& data) {
     clearProgress();
     for (const std::string& note : data.notes) fmt::print(stderr, "pellucid: {}\n", note);
-    fmt::print("{}: {} of {} settings\n", (folder / "index.html").string(), data.measurements.size(),
+    fmt::print("{}: {} of {} settings", (folder / "index.html").string(), data.measurements.size(),
                data.planned);
+    if (!data.leftOut.empty())
+        fmt::print(", the others left out, first {}: {}", settingName(data.leftOut.front().setting),
+                   data.leftOut.front().why);
+    fmt::print("\n");
 }
 
 int run(const ReportArguments& arguments) {
@@ -73,6 +78,7 @@ int run(const ReportArguments& arguments) {
     job.name = nameOf(arguments.input, *job.volume);
     job.scope = arguments.quick ? accuracy::quickScope(job.scene) : accuracy::fullScope(job.scene);
     job.scope.peers = arguments.peers;
+    if (arguments.budgetMinutes) job.scope.budgetSeconds = 60.0 * *arguments.budgetMinutes;
     job.folder = arguments.folder;
     job.files = {io::writePng, io::writePfm, io::readPfm};
     job.progress = consoleProgress();
@@ -106,6 +112,13 @@ Command addReportCommand(CLI::App& program) {
         ->type_name("DIR");
     command->add_flag("--quick", arguments->quick,
                       "Under a minute: a small picture, few steps; says what it left out");
+    command
+        ->add_option(
+            "--budget", arguments->budgetMinutes,
+            "Begins nothing that is not expected to end within these minutes; the same command again "
+            "goes on")
+        ->type_name("MINUTES")
+        ->check(CLI::PositiveNumber);
     command->add_flag("--peers", arguments->peers,
                       "Measures VTK's volume renderers too, where there is an X display");
     command->footer(
@@ -114,9 +127,12 @@ Command addReportCommand(CLI::App& program) {
         "with a\n"
         "reference in double precision. Writes index.html (needs nothing else), report.json and report.csv. "
         "Each finished\n"
-        "measurement is kept in the folder: after Ctrl-C the same command goes on. Without --quick it takes "
-        "long: minutes\n"
-        "on a graphics card, hours on a software driver.\n\n"
+        "measurement is kept in the folder: after Ctrl-C the same command goes on. Left out, and said so, "
+        "are "
+        "settings of\n"
+        "which a frame would take more than 10 s, and filters whose reference would take more than 15 min. "
+        "Without --quick\n"
+        "it takes long: minutes on a graphics card, hours on a software driver.\n\n"
         "Examples:\n"
         "  pellucid report ct-head/ -o head-report --quick\n"
         "  pellucid report scene.json -o scene-report --size 256x256 --peers");

@@ -80,6 +80,12 @@ TEST_F(Report, ThePageNeedsNothingElse) {
               count("r/index.html", "src=\"data:image/png;base64,iVBORw0KGgo"));
     EXPECT_GE(count("r/index.html", "<figure>"), 11);  // the reference, nine integrators, two formats
     EXPECT_THAT(html, HasSubstr("32 times as bright"));
+    const std::string head = html.substr(0, html.find("<h2"));
+    EXPECT_THAT(
+        head,
+        HasSubstr(
+            "<dt>References</dt><dd>last two pictures, at half the step, differ by at most trilinear "));
+    EXPECT_EQ(html.find("id=\"left-out\""), std::string::npos) << "nothing was";
 }
 
 TEST_F(Report, TwoRunsAreEqualApartFromTimes) {
@@ -96,6 +102,22 @@ TEST_F(Report, ASecondRunMeasuresNothingAgain) {
     ASSERT_EQ(quick("r").status, 0);
     EXPECT_EQ(read("r/measurements.jsonl"), kept);
     EXPECT_EQ(read("r/report.json"), before) << "the times are those of the first run";
+}
+
+TEST_F(Report, WhatTheTimeDoesNotAllowIsLeftOutAndSaidAndMeasuredByTheNextRun) {
+    const Outcome outcome = run({"report", "scene.json", "-o", "r", "--quick", "--budget", "0.00001"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("0 of "));
+    EXPECT_THAT(outcome.out, HasSubstr("the time was up"));
+    const json report = json::parse(read("r/report.json"));
+    EXPECT_EQ(report.at("measurements").size(), 0u);
+    EXPECT_EQ(report.at("time").at("leftOut").size(), report.at("planned"));
+    EXPECT_EQ(report.at("time").at("leftOut").front().at("setting"), "riemann, trilinear, float32, step 4");
+    EXPECT_THAT(read("r/index.html"), HasSubstr("<h2 id=\"left-out\""));
+    ASSERT_EQ(quick("r").status, 0);
+    const json complete = json::parse(read("r/report.json"));
+    EXPECT_EQ(complete.at("measurements").size(), complete.at("planned"));
+    EXPECT_TRUE(complete.at("time").at("leftOut").empty());
 }
 
 TEST_F(Report, WhatACutOffLineHeldIsMeasuredAgain) {
