@@ -90,15 +90,27 @@ SegmentOptics FixedStepIntegrator::segment(Walk& walk, double from, double to) c
 /// Equation 6.
 RayIntegral FixedStepIntegrator::sumOfSegments(Walk& walk) const {
     RayIntegral sum;
-    const auto add = [&](double from, double to) {
-        const SegmentOptics seen = walk.lit(segment(walk, from, to), 0.5 * (from + to));
+    const auto addOptics = [&](const SegmentOptics& optics, double middle) {
+        const SegmentOptics seen = walk.lit(optics, middle);
         const double before = std::exp(-sum.opticalDepth);
         sum.opticalDepth += seen.depth;
         sum.color += (before - std::exp(-sum.opticalDepth)) * seen.color;
     };
-    const bool halves = m_medium.scene().quality.integrator == Integrator::Adaptive;
+    const auto add = [&](double from, double to) { addOptics(segment(walk, from, to), 0.5 * (from + to)); };
+    const Scene& scene = m_medium.scene();
+    const bool adaptive = scene.quality.integrator == Integrator::Adaptive;
+    if (adaptive && scene.volumes.front().filter == Filter::Nearest) {
+        if (!walk.ray.inside) return sum;
+        constexpr double kWholeCells = std::numeric_limits<double>::infinity();
+        walkCells(m_medium.field(), walk.ray.index, *walk.ray.inside, kWholeCells, [&](const Segment& cell) {
+            const double middle = 0.5 * (cell.from + cell.to);
+            addOptics(exponentialRule(walk.optics(middle), cell.to - cell.from), middle);
+            return true;
+        });
+        return sum;
+    }
     walkSegments(walk.ray, [&](double from, double to) {
-        if (!halves) return add(from, to);
+        if (!adaptive) return add(from, to);
         add(from, 0.5 * (from + to));
         add(0.5 * (from + to), to);
     });

@@ -16,7 +16,8 @@ namespace pellucid::accuracy {
 /// Independent code; only the equations are shared (docs/equations.md, 6 to 13).
 ///
 /// Segments of the scene's step from the entry on, the last one shortened. The adaptive integrator has its
-/// longest steps everywhere, each as two halves, and the importance integrator its shortest.
+/// longest steps everywhere, each as two halves, or with the nearest filter one segment a voxel, and the
+/// importance integrator its shortest.
 class FixedStepIntegrator {
 public:
     /// Precondition: the scene is completed() and valid, with one volume, without jitter, in a mode that sums

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "renderer/automatic_quality.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -176,6 +178,17 @@ double errorIn(ErrorNorm norm, const ErrorEstimate& estimate) {
     return errorIn(norm, PictureError{estimate.maxError, estimate.rmse});
 }
 
+std::string whyUnmet(const Quality& quality, const ErrorEstimate& estimate, const std::string& whyNoFiner) {
+    if (meetsTolerance(quality, estimate)) return {};
+    const double error = errorIn(quality.toleranceNorm, estimate);
+    const std::string within =
+        error <= toleranceOf(quality)
+            ? fmt::format(", within it but for what an estimate may miss ({:g} grey levels are allowed)",
+                          255.0 * margin(quality.toleranceNorm) * toleranceOf(quality))
+            : "";
+    return fmt::format("the estimate is {:.3g} grey levels{}; {}", 255.0 * error, within, whyNoFiner);
+}
+
 Result<Quality> chooseQuality(const Scene& scene, const DrawTimed& draw) {
     Search search(scene, draw);
     if (auto found = search.findTruth(); !found) return tl::unexpected(found.error());
@@ -224,15 +237,25 @@ std::optional<Quality> coarser(const Attempt& attempt) {
 }
 
 Quality refined(const std::vector<Attempt>& attempts) {
+    // At jumps it may be a half.
+    constexpr double kLeastOrder = 0.5;
     const Attempt& last = attempts.back();
+    const Attempt* before = attempts.size() > 1 ? &attempts[attempts.size() - 2] : nullptr;
+    if (before != nullptr && before->quality.stepVoxels == last.quality.stepVoxels) before = nullptr;
     double order = 1.0;
-    if (attempts.size() > 1) {
-        const Attempt& before = attempts[attempts.size() - 2];
-        order = std::log(before.error / last.error) /
-                std::log(before.quality.stepVoxels / last.quality.stepVoxels);
-        // At jumps it may be a half; an order that two pictures do not show is not trusted.
-        order = std::clamp(order, 0.5, 2.0);
+    if (before != nullptr)
+        order = std::log(before->error / last.error) /
+                std::log(before->quality.stepVoxels / last.quality.stepVoxels);
+    // What pixels without a ray miss no shorter step lowers. Of the largest error it is no more than guessed
+    // where rays are chosen; of others it shows by an error that stays.
+    if (last.quality.interpolationGreyLevels &&
+        (last.quality.toleranceNorm == ErrorNorm::Max || order < kLeastOrder)) {
+        Quality everyPixel = before != nullptr ? before->quality : last.quality;
+        everyPixel.interpolationGreyLevels.reset();
+        return everyPixel;
     }
+    // An order that two pictures do not show is not trusted.
+    order = std::clamp(order, kLeastOrder, 2.0);
     Quality finer = last.quality;
     finer.stepVoxels *= std::clamp(std::pow(aim(finer) / last.error, 1.0 / order), 1.0 / 16.0, 0.8);
     // Which of the two it was is not known.

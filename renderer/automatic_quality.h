@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "renderer/error_estimate.h"
@@ -31,7 +32,9 @@ struct Attempt {
 };
 /// The settings of the last attempt, which was not good enough, with the step that should be: between 4/5 of
 /// it and a sixteenth. Errors are taken as the power of the step that the last two attempts show, as
-/// proportional to it after only one. Precondition: at least one attempt.
+/// proportional to it after only one. Where not every pixel had a ray, and the largest error counts or the
+/// error stayed when the step was shortened, the settings before that with a ray a pixel. Precondition: at
+/// least one attempt.
 [[nodiscard]] Quality refined(const std::vector<Attempt>& attempts);
 
 /// Settings that use more of the tolerance than this attempt, which met it, did: a step up to twice as long,
@@ -40,6 +43,11 @@ struct Attempt {
 
 /// True when an error so estimated is below the tolerance, the uncertainty of estimates allowed for.
 [[nodiscard]] bool meetsTolerance(const Quality& quality, const ErrorEstimate& estimate);
+
+/// Why a picture so estimated does not meet its tolerance, a sentence; empty when it does. `whyNoFiner`: why
+/// it was not drawn with finer settings.
+[[nodiscard]] std::string whyUnmet(const Quality& quality, const ErrorEstimate& estimate,
+                                   const std::string& whyNoFiner);
 
 /// The tolerance in display units (1 = full range).
 [[nodiscard]] double toleranceOf(const Quality& quality);

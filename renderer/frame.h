@@ -36,6 +36,8 @@ struct Frame {
     FrameCost cost;
     std::optional<ErrorEstimate> error;  ///< When asked for.
     Plan plan;
+    /// Where a tolerance was asked for that the error estimate does not show to be met: why, a sentence.
+    std::string unmet;
     std::optional<Quality> chosen;  ///< Where the scene's quality is automatic: what was found for it.
     bool preview = false;  ///< Drawn with a quickly made table; the same scene drawn again has the exact one.
 };

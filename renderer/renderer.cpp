@@ -7,17 +7,14 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <map>
 #include <optional>
 
-#include "renderer/automatic_quality.h"
 #include "renderer/error_estimate.h"
 #include "renderer/gpu/gl_state_scope.h"
-#include "renderer/gpu/gpu_context.h"
 #include "renderer/gpu/loop_limit.h"
-#include "renderer/gpu/program_cache.h"
-#include "renderer/passes/raycast_pass.h"
 #include "renderer/plan/skipping.h"
+#include "renderer/plan/slabs.h"
+#include "renderer/renderer_state.h"
 
 namespace pellucid::renderer {
 
@@ -54,67 +51,33 @@ bool isComplete(const Scene& scene) {
            (item.window || !usesWindow(scene.mode)) && (item.isovalue || scene.mode != Mode::Isosurface);
 }
 
+/// Why a tolerance stated with an integrator that is steered by it is not met; empty when the estimate does
+/// not show that.
+std::string whyUnmetAsStated(const Quality& quality, const ErrorEstimate& estimate, Integrator integrator) {
+    if (!quality.toleranceGreyLevels || errorIn(quality.toleranceNorm, estimate) <= toleranceOf(quality))
+        return {};
+    if (integrator == Integrator::Importance)
+        return whyUnmet(quality, estimate,
+                        "importance bounds how far the value leaves a line between samples, not the picture");
+    if (integrator == Integrator::Adaptive)
+        return whyUnmet(quality, estimate,
+                        "adaptive steps are steered by what is seen at samples, and become no shorter than a "
+                        "64th of the step stated");
+    return {};
+}
+
 }  // namespace
 
-struct Renderer::State {
-    GpuContext context;  // first: everything else needs it to be destroyed
-    ProgramCache programs;
-    ResourceStore store;
-    RaycastPass raycast;
-    std::map<const GlProgram*, double> msPerSample;  // of the most expensive tile last drawn
+Renderer::State::State(GpuContext own)
+    : context(std::move(own)), raycast(isSoftware(glText(GL_RENDERER))), maxLoopTurns(measuredLoopLimit()) {}
 
-    double maxLoopTurns;
-    bool preview = false;  // the last picture used a quickly made table
+Renderer::State::~State() {
+    context.makeCurrent();
+}
 
-    /// The last automatic choice and what it was made for, whatever the view: errors hardly change with it.
-    struct Choice {
-        Scene look;
-        std::weak_ptr<const Volume> volume;
-        Quality quality;
-    };
-    std::optional<Choice> choice;
-
-    explicit State(GpuContext own)
-        : context(std::move(own)),
-          raycast(isSoftware(glText(GL_RENDERER))),
-          maxLoopTurns(measuredLoopLimit()) {}
-    ~State() { context.makeCurrent(); }
-
-    Result<const GlProgram*> program(const Plan& plan);
-    FrameTables tablesFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts,
-                          const RenderOptions& options);
-    Result<ResourceStore::Leaps*> leapsFor(const Scene& scene, Plan& plan, const VolumePtr& volume,
-                                           const VolumeTexture& texture, const Progress& progress);
-    /// Values and gradients, when the plan has them and they are there; else leaves them out of the plan.
-    Result<const FieldTexture*> fieldFor(Plan& plan, const VolumePtr& volume, int component,
-                                         const RenderOptions& options);
-    /// `plan` learns what the volume's blocks say.
-    Result<ImageF> drawOnce(const Scene& scene, Plan& plan, const VolumePtr& volume,
-                            const RenderOptions& options, FrameCost& cost);
-    /// Draws what is stated; the scene is complete and its quality not automatic.
-    Result<Frame> drawStated(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                             const RenderOptions& options);
-    /// Chooses the quality, draws, and chooses finer ones as long as the estimate is above the tolerance.
-    Result<Frame> drawAutomatic(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                                const RenderOptions& options);
-    /// Draws with more room used, as long as the error stays below the tolerance; `best` and `choice` are the
-    /// cheapest after it.
-    Result<void> relax(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                       const RenderOptions& options, Frame& best);
-    /// Sees to it that `choice` is one for this scene and volume; true when it is new. Errors: those of
-    /// drawStated.
-    Result<bool> choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                        const RenderOptions& options);
-    /// The settings to draw with after these attempts; nothing when the device allows no shorter step.
-    std::optional<Quality> finer(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                                 const std::vector<Attempt>& attempts) const;
-    Result<Plan> planFor(const Scene& scene, const std::vector<VolumePtr>& volumes) const;
-    /// The same, unless its error could not be estimated since the device refuses the shorter steps for that.
-    Result<Plan> planWithEstimate(const Scene& scene, const std::vector<VolumePtr>& volumes) const;
-    DeviceLimits limits() const {
-        return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes, maxLoopTurns};
-    }
-};
+DeviceLimits Renderer::State::limits() const {
+    return {glInteger(GL_MAX_3D_TEXTURE_SIZE), DeviceLimits{}.maxTextureBytes, maxLoopTurns};
+}
 
 Result<const GlProgram*> Renderer::State::program(const Plan& plan) {
     auto found = programs.find(assembleShader(plan.features, plan.stages));
@@ -155,6 +118,8 @@ Result<ResourceStore::Leaps*> Renderer::State::leapsFor(const Scene& scene, Plan
         store.leaps(volume, item.component, item.filter, texture, shownValues(scene, plan, facts), progress);
     if (!leaps) return leaps;
     refineSkipping(plan, (*leaps)->occupancy.facts());
+    // Without leaps there are more turns for samples.
+    if (auto fits = fitLoops(plan, limits()); !fits) return tl::unexpected(fits.error());
     return leaps;
 }
 
@@ -163,15 +128,19 @@ Result<const FieldTexture*> Renderer::State::fieldFor(Plan& plan, const VolumePt
     if (plan.features.gradients != GradientSource::Texture) return nullptr;
     auto field = store.field(volume, component);
     if (!field) {
-        dropGradientTexture(plan, field.error().text());
+        if (auto fits = dropGradientTexture(plan, limits(), field.error().text()); !fits)
+            return tl::unexpected(fits.error());
         return nullptr;
     }
-    const double budgetMs =
-        options.allowPreview ? options.gradientMs : std::numeric_limits<double>::infinity();
+    Plan without = plan;
+    const bool canWait =
+        options.allowPreview &&
+        dropGradientTexture(without, limits(), "it is being made, a part with every picture");
+    const double budgetMs = canWait ? options.gradientMs : std::numeric_limits<double>::infinity();
     if (auto made = makeField(**field, *volume, component, budgetMs, options.progress); !made)
         return tl::unexpected(made.error());
     if ((*field)->isComplete()) return *field;
-    dropGradientTexture(plan, "it is being made, a part with every picture");
+    plan = std::move(without);
     return nullptr;
 }
 
@@ -188,10 +157,10 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const V
         if (!made) return tl::unexpected(made.error());
         importance = *made;
     }
-    auto field = fieldFor(plan, volume, item.component, options);
-    if (!field) return tl::unexpected(field.error());
     auto leaps = leapsFor(scene, plan, volume, **texture, options.progress);
     if (!leaps) return tl::unexpected(leaps.error());
+    auto field = fieldFor(plan, volume, item.component, options);
+    if (!field) return tl::unexpected(field.error());
     auto program_ = program(plan);
     if (!program_) return tl::unexpected(program_.error());
     FrameTables tables = tablesFor(scene, plan, factsOf(*volume, item.component), options);
@@ -218,6 +187,9 @@ Result<ImageF> Renderer::State::drawOnce(const Scene& scene, Plan& plan, const V
     inputs.lightsBlock = plan.features.lit ? store.lights(lightBlock(scene, volume->grid())).id() : 0;
     inputs.interpolates = item.filter != Filter::Nearest;
     inputs.target = *target;
+    if (plan.slabs > 1)
+        inputs.slabs = Slabs{plan.slabs, samplesPerSlab(plan) * plan.stepMm, backgroundOf(scene, plan),
+                             plan.features.space == CompositingSpace::Linear, scene.picture.transparent};
     if (scene.quality.interpolationGreyLevels)
         inputs.interpolation = *scene.quality.interpolationGreyLevels / 255.0;
     inputs.norm = scene.quality.toleranceNorm;
@@ -272,101 +244,10 @@ Result<Frame> Renderer::State::drawStated(const Scene& scene, const std::vector<
                                       options.estimateReduction, draw);
         if (!estimate) return tl::unexpected(estimate.error());
         frame.error = std::move(*estimate);
+        frame.unmet = whyUnmetAsStated(scene.quality, *frame.error, plan->features.integrator);
     }
     frame.plan = std::move(*plan);
     return frame;
-}
-
-Result<bool> Renderer::State::choose(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                                     const RenderOptions& options) {
-    Scene look = scene;
-    look.camera = Camera{};
-    look.picture = Picture{};
-    if (choice && !volumes.empty() && choice->volume.lock() == volumes.front() && choice->look == look)
-        return false;
-    if (auto plan = planFor(scene, volumes); !plan) return tl::unexpected(plan.error());
-    const auto draw = [&](const Scene& probe) -> Result<TimedImage> {
-        auto plan = planWithEstimate(probe, volumes);
-        if (!plan) return tl::unexpected(plan.error());
-        FrameCost cost;
-        auto image = drawOnce(probe, *plan, volumes.front(), options, cost);
-        if (!image) return tl::unexpected(image.error());
-        return TimedImage{std::move(*image), cost.gpuMs};
-    };
-    auto quality = chooseQuality(scene, draw);
-    if (!quality) return tl::unexpected(quality.error());
-    choice = Choice{look, volumes.front(), *quality};
-    return true;
-}
-
-Result<void> Renderer::State::relax(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                                    const RenderOptions& options, Frame& best) {
-    constexpr int kMostTries = 2;
-    Scene stated = scene;
-    for (int i = 0; i < kMostTries; ++i) {
-        const auto longer = coarser({choice->quality, errorIn(scene.quality.toleranceNorm, *best.error)});
-        if (!longer) break;
-        stated.quality = *longer;
-        auto frame = drawStated(stated, volumes, options);
-        if (!frame) return tl::unexpected(frame.error());
-        if (!meetsTolerance(scene.quality, *frame->error)) break;
-        choice->quality = *longer;
-        best = std::move(*frame);
-    }
-    return {};
-}
-
-std::optional<Quality> Renderer::State::finer(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                                              const std::vector<Attempt>& attempts) const {
-    Scene stated = scene;
-    stated.quality = refined(attempts);
-    if (planWithEstimate(stated, volumes)) return stated.quality;
-    // Devices refuse rays of too many samples; half the step may still be possible.
-    stated.quality.stepVoxels = 0.5 * attempts.back().quality.stepVoxels;
-    if (planWithEstimate(stated, volumes)) return stated.quality;
-    return std::nullopt;
-}
-
-Result<Frame> Renderer::State::drawAutomatic(const Scene& scene, const std::vector<VolumePtr>& volumes,
-                                             const RenderOptions& options) {
-    constexpr std::size_t kMostAttempts = 8;
-    const auto start = std::chrono::steady_clock::now();
-    const auto isNew = choose(scene, volumes, options);
-    if (!isNew) return tl::unexpected(isNew.error());
-    RenderOptions estimated = options;
-    estimated.estimateError = true;
-    // The largest error may be at any pixel.
-    if (scene.quality.toleranceNorm == ErrorNorm::Max) estimated.estimateReduction = 1;
-    Scene stated = scene;
-    std::vector<Attempt> attempts;
-    while (true) {
-        stated.quality = choice->quality;
-        double otherMs = msSince(start);
-        auto frame = drawStated(stated, volumes, estimated);
-        if (!frame) return frame;
-        attempts.push_back({choice->quality, errorIn(scene.quality.toleranceNorm, *frame->error)});
-        std::optional<Quality> next;
-        if (!meetsTolerance(scene.quality, *frame->error) && attempts.size() < kMostAttempts)
-            next = finer(scene, volumes, attempts);
-        if (next) {
-            choice->quality = *next;
-            continue;
-        }
-        if (*isNew && attempts.size() == 1 && meetsTolerance(scene.quality, *frame->error)) {
-            const auto drawn = std::chrono::steady_clock::now();
-            if (auto relaxed = relax(scene, volumes, estimated, *frame); !relaxed)
-                return tl::unexpected(relaxed.error());
-            otherMs += msSince(drawn);
-        }
-        // Where nearly every pixel has a ray, choosing them costs more than it saves.
-        const double pixels = static_cast<double>(scene.picture.size.x) * scene.picture.size.y;
-        if (static_cast<double>(frame->cost.rays) > 0.8 * pixels)
-            choice->quality.interpolationGreyLevels.reset();
-        frame->cost.prepareMs += otherMs;
-        frame->cost.wallMs += otherMs;
-        frame->chosen = choice->quality;
-        return frame;
-    }
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : m_state(std::move(state)) {}
@@ -405,6 +286,10 @@ const WorkCounts& Renderer::workCounts() const {
 DeviceLimits Renderer::limits() const {
     m_state->context.makeCurrent();
     return m_state->limits();
+}
+
+void Renderer::limitLoopTurns(double turns) {
+    m_state->maxLoopTurns = std::min(m_state->maxLoopTurns, turns);
 }
 
 Renderer::DeviceInfo Renderer::deviceInfo() const {

@@ -66,6 +66,9 @@ public:
 
     [[nodiscard]] const WorkCounts& workCounts() const;
     [[nodiscard]] DeviceLimits limits() const;
+    /// Counts on no more turns of a pixel's loops than this, as on a driver that gives no more; tests of what
+    /// is drawn in slabs need no steps so short.
+    void limitLoopTurns(double turns);
 
     /// What the driver says it is; for doctor, reports and status bars.
     struct DeviceInfo {

@@ -54,14 +54,17 @@ std::string errorText(const std::optional<renderer::ErrorEstimate>& error) {
                        greyLevels(error->rmse), greyLevels(error->maxError), error->probedPixels);
 }
 
-/// What was chosen for a scene that states an error and leaves the rest open; empty for others.
+/// What was chosen for a scene that states an error and leaves the rest open, and whether an error stated is
+/// met, as far as that is known; empty for others.
 std::string choiceText(const renderer::Frame& frame, const Quality& asked) {
-    if (!frame.chosen || !frame.error) return {};
-    const bool isMet = renderer::meetsTolerance(asked, *frame.error);
-    return fmt::format("chosen: {}, steps of {:.3g} voxels; the tolerance of {} is {}\n",
-                       name(frame.chosen->integrator), frame.chosen->stepVoxels,
-                       renderer::toleranceText(asked),
-                       isMet ? "met" : "NOT met: the estimate allows for its own uncertainty");
+    std::string text;
+    if (frame.chosen)
+        text = fmt::format("chosen: {}, steps of {:.3g} voxels; ", name(frame.chosen->integrator),
+                           frame.chosen->stepVoxels);
+    else if (frame.unmet.empty())
+        return {};
+    return text + fmt::format("the tolerance of {} is {}\n", renderer::toleranceText(asked),
+                              frame.unmet.empty() ? "met" : "NOT met: " + frame.unmet);
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ QString costText(const RenderService::Reply& reply, double smallestSpacingMm,
                                           .arg(frame.image.size.y)
                                           .arg(ms, 0, 'f', ms < 10.0 ? 1 : 0)};
     if (frame.error) parts += errorText(frame, reply.isFinal);
+    if (!frame.unmet.empty()) parts += tr("tolerance NOT met: %1").arg(QString::fromStdString(frame.unmet));
     if (frame.plan.features.mode != Mode::Slice) parts += settingsText(frame.plan, smallestSpacingMm);
     parts += tr("%1 MB").arg(static_cast<double>(frame.plan.totalBytes) / 1e6, 0, 'f', 1);
     return parts.join(QStringLiteral("   |   "));

@@ -25,6 +25,12 @@ GlStateScope::GlStateScope() {
     glGetIntegerv(GL_UNPACK_ALIGNMENT, &m_unpackAlignment);
     glGetIntegerv(GL_VIEWPORT, m_viewport);
     glGetIntegerv(GL_SCISSOR_BOX, m_scissor);
+    glGetIntegerv(GL_BLEND_EQUATION_RGB, &m_blendEquation[0]);
+    glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &m_blendEquation[1]);
+    glGetIntegerv(GL_BLEND_SRC_RGB, &m_blendFunction[0]);
+    glGetIntegerv(GL_BLEND_DST_RGB, &m_blendFunction[1]);
+    glGetIntegerv(GL_BLEND_SRC_ALPHA, &m_blendFunction[2]);
+    glGetIntegerv(GL_BLEND_DST_ALPHA, &m_blendFunction[3]);
     m_scissorTest = glIsEnabled(GL_SCISSOR_TEST);
     m_blend = glIsEnabled(GL_BLEND);
     m_depthTest = glIsEnabled(GL_DEPTH_TEST);
@@ -41,6 +47,9 @@ GlStateScope::~GlStateScope() {
     glPixelStorei(GL_UNPACK_ALIGNMENT, m_unpackAlignment);
     glViewport(m_viewport[0], m_viewport[1], m_viewport[2], m_viewport[3]);
     glScissor(m_scissor[0], m_scissor[1], m_scissor[2], m_scissor[3]);
+    glBlendEquationSeparate(static_cast<GLenum>(m_blendEquation[0]), static_cast<GLenum>(m_blendEquation[1]));
+    glBlendFuncSeparate(static_cast<GLenum>(m_blendFunction[0]), static_cast<GLenum>(m_blendFunction[1]),
+                        static_cast<GLenum>(m_blendFunction[2]), static_cast<GLenum>(m_blendFunction[3]));
     setEnabled(GL_SCISSOR_TEST, m_scissorTest);
     setEnabled(GL_BLEND, m_blend);
     setEnabled(GL_DEPTH_TEST, m_depthTest);

@@ -17,6 +17,8 @@ public:
 private:
     GLint m_drawFramebuffer = 0, m_readFramebuffer = 0, m_program = 0, m_vertexArray = 0, m_uniformBuffer = 0,
           m_packAlignment = 4, m_unpackAlignment = 4;
+    GLint m_blendEquation[2] = {GL_FUNC_ADD, GL_FUNC_ADD};          // RGB, alpha
+    GLint m_blendFunction[4] = {GL_ONE, GL_ZERO, GL_ONE, GL_ZERO};  // source and destination of RGB, of alpha
     GLint m_viewport[4] = {}, m_scissor[4] = {};
     GLboolean m_scissorTest = GL_FALSE, m_blend = GL_FALSE, m_depthTest = GL_FALSE, m_cullFace = GL_FALSE;
 };

@@ -80,6 +80,18 @@ double guessedMsPerSample(const Features& features) {
     return kMsPerFetch * fetchesPerValue(features.filter) * (features.lit ? 7.0 : 1.0);
 }
 
+void finish(const Slabs& slabs, std::span<glm::vec4> pixels) {
+    if (!slabs.isLinear) return;
+    const auto shown = [](float linear) {
+        return static_cast<float>(displayFromLinear(static_cast<double>(linear)));
+    };
+    for (glm::vec4& pixel : pixels) {
+        const float opacity = slabs.isTransparent && pixel.a > 0.0f ? pixel.a : 1.0f;
+        for (int channel = 0; channel < 3; ++channel)
+            pixel[channel] = shown(pixel[channel] / opacity) * opacity;
+    }
+}
+
 RaycastPass::RaycastPass(bool softwareDevice)
     : m_noVertices(createVertexArray()),
       m_linear(createSampler(GL_LINEAR)),
@@ -120,7 +132,13 @@ void RaycastPass::bind(const RaycastInputs& inputs) const {
     if (inputs.surfacesBlock != 0) glBindBufferBase(GL_UNIFORM_BUFFER, 1, inputs.surfacesBlock);
     glBindFramebuffer(GL_FRAMEBUFFER, inputs.target->framebuffer.id());
     glViewport(0, 0, inputs.target->size.x, inputs.target->size.y);
-    glDisable(GL_BLEND);
+    if (inputs.slabs) {
+        glEnable(GL_BLEND);
+        glBlendEquation(GL_FUNC_ADD);
+        glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    } else {
+        glDisable(GL_BLEND);
+    }
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glEnable(GL_SCISSOR_TEST);
@@ -132,12 +150,32 @@ void RaycastPass::setPlace(const RaycastInputs& inputs, const Place& place) cons
     glProgramUniform2f(program, inputs.program->location("targetOrigin"), place.origin.x, place.origin.y);
 }
 
-double RaycastPass::drawTiles(std::span<const Tile> tiles, FrameCost& cost) {
+void RaycastPass::drawSlabs(const Slabs& slabs, const RaycastInputs& inputs) const {
+    const GLuint program = inputs.program->id();
+    const glm::vec4 nothing(0.0f);
+    glClearNamedFramebufferfv(inputs.target->framebuffer.id(), GL_COLOR, 0, glm::value_ptr(nothing));
+    for (int slab = 0; slab < slabs.count; ++slab) {
+        // Behind the last part there is the background, and no end before the ray's own.
+        const bool isLast = slab + 1 == slabs.count;
+        glProgramUniform1f(program, inputs.program->location("slabFromMm"),
+                           static_cast<float>(slab * slabs.lengthMm));
+        glProgramUniform1f(program, inputs.program->location("slabToMm"),
+                           static_cast<float>((slab + (isLast ? 2 : 1)) * slabs.lengthMm));
+        const glm::vec3 behind = isLast ? slabs.background : glm::vec3(0.0f);
+        glProgramUniform3fv(program, inputs.program->location("background"), 1, glm::value_ptr(behind));
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+}
+
+double RaycastPass::drawTiles(const RaycastInputs& inputs, std::span<const Tile> tiles, FrameCost& cost) {
     const auto start = std::chrono::steady_clock::now();
     if (m_timer) glBeginQuery(GL_TIME_ELAPSED, m_timer.id());
     for (const Tile& tile : tiles) {
         glScissor(tile.origin.x, tile.origin.y, tile.size.x, tile.size.y);
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        if (inputs.slabs)
+            drawSlabs(*inputs.slabs, inputs);
+        else
+            glDrawArrays(GL_TRIANGLES, 0, 3);
         cost.rays += static_cast<std::int64_t>(tile.size.x) * tile.size.y;
     }
     if (m_timer) glEndQuery(GL_TIME_ELAPSED);
@@ -166,10 +204,11 @@ Result<ImageF> RaycastPass::drawEveryPixel(const RaycastInputs& inputs, glm::ive
             const double done = static_cast<double>(fromBottom + tile.origin.y) / size.y;
             if (!goOn(options.progress, done, "drawing"))
                 return fail(ErrorCode::Cancelled, "the drawing was cancelled");
-            budget.took(static_cast<double>(tile.size.x) * tile.size.y, drawTiles({&tile, 1}, cost));
+            budget.took(static_cast<double>(tile.size.x) * tile.size.y, drawTiles(inputs, {&tile, 1}, cost));
         }
         readBand(inputs.target->color.id(), band, fromBottom, image);
     }
+    if (inputs.slabs) finish(*inputs.slabs, image.pixels);
     return image;
 }
 

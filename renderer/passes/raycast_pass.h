@@ -15,6 +15,17 @@
 
 namespace pellucid::renderer {
 
+/// Rays drawn in parts, each blended under those in front of it.
+struct Slabs {
+    int count = 1;
+    double lengthMm = 0.0;
+    glm::vec3 background{0.0f};  ///< In the compositing space.
+    bool isLinear = false;  ///< That is light-linear: the picture is encoded for display once it is read.
+    bool isTransparent = false;  ///< The picture.
+};
+/// Pixels read once all slabs are drawn, as they are shown: what shaders/encode/srgb.glsl does.
+void finish(const Slabs& slabs, std::span<glm::vec4> pixels);
+
 /// What one picture is drawn with; all of it outlives the draw.
 struct RaycastInputs {
     const GlProgram* program = nullptr;
@@ -31,6 +42,7 @@ struct RaycastInputs {
     GLuint surfacesBlock = 0;  ///< 0: none.
     bool interpolates = true;  ///< The volume's sampler is linear.
     const ResourceStore::Target* target = nullptr;
+    std::optional<Slabs> slabs;  ///< Unset: rays are drawn whole.
     /// Rays only where interpolation would be wrong by more than this, display units in the norm; unset: a
     /// ray a pixel.
     std::optional<double> interpolation;
@@ -62,8 +74,10 @@ private:
 
     void bind(const RaycastInputs& inputs) const;
     void setPlace(const RaycastInputs& inputs, const Place& place) const;
+    /// The tile the scissor is set to, part by part of its rays, each blended under those before it.
+    void drawSlabs(const Slabs& slabs, const RaycastInputs& inputs) const;
     /// Milliseconds for all of them.
-    double drawTiles(std::span<const Tile> tiles, FrameCost& cost);
+    double drawTiles(const RaycastInputs& inputs, std::span<const Tile> tiles, FrameCost& cost);
     Result<ImageF> drawEveryPixel(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,
                                   TileBudget& budget, FrameCost& cost);
     Result<ImageF> drawSparsely(const RaycastInputs& inputs, glm::ivec2 size, const RenderOptions& options,

@@ -9,6 +9,7 @@
 
 #include "renderer/plan/importance.h"
 #include "renderer/plan/number_limits.h"
+#include "renderer/plan/slabs.h"
 #include "scene/image.h"
 
 namespace pellucid::renderer {
@@ -142,6 +143,12 @@ void addImportance(Uniforms& uniforms, const Scene& scene, const Plan& plan, con
 
 }  // namespace
 
+glm::vec3 backgroundOf(const Scene& scene, const Plan& plan) {
+    if (scene.picture.transparent) return glm::vec3(0.0f);
+    const glm::dvec3 shown = scene.picture.background;
+    return glm::vec3(plan.features.space == CompositingSpace::Linear ? linearFromDisplay(shown) : shown);
+}
+
 Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid, const VolumeTexture& volume,
                          const FrameTables& tables, double maxLoopTurns) {
     Uniforms uniforms;
@@ -152,10 +159,8 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     if (tables.field != nullptr) addField(uniforms, grid, tables.field->layout);
     addAdaptive(uniforms, scene, plan, maxLoopTurns);
     addImportance(uniforms, scene, plan, grid);
-    glm::dvec3 background = scene.picture.transparent ? glm::dvec3(0.0) : scene.picture.background;
-    const bool linear = plan.features.space == CompositingSpace::Linear;
-    if (linear) background = linearFromDisplay(background);
-    uniforms.emplace_back("background", glm::vec3(background));
+    if (plan.features.slabs) uniforms.emplace_back("slabStepMm", static_cast<float>(plan.stepMm));
+    uniforms.emplace_back("background", backgroundOf(scene, plan));
     uniforms.emplace_back("transparentPicture", scene.picture.transparent ? 1 : 0);
     uniforms.emplace_back("material", glm::vec4(scene.material.ambient, scene.material.diffuse,
                                                 scene.material.specular, scene.material.shininess));
@@ -178,6 +183,7 @@ Uniforms raycastUniforms(const Scene& scene, const Plan& plan, const Grid& grid,
     }
     addTables(uniforms, plan, volume, tables);
     if (tables.occupancy != nullptr) addSkipping(uniforms, grid, *tables.occupancy);
+    const bool linear = plan.features.space == CompositingSpace::Linear;
     // The sRGB curve is 12.92 times steeper in the dark than light-linear values.
     const double steepest = (linear ? 12.92 : 1.0) * brightestReflection(scene);
     uniforms.emplace_back("terminationTransmittance",

@@ -41,6 +41,9 @@ struct FrameTables {
                                        const VolumeTexture& volume, const FrameTables& tables,
                                        double maxLoopTurns);
 
+/// What is behind the volume, in the compositing space; nothing where the picture is transparent.
+[[nodiscard]] glm::vec3 backgroundOf(const Scene& scene, const Plan& plan);
+
 /// The std140 block Surfaces: for each surface, ascending in value, colour in the compositing space and
 /// opacity, and the normalised value.
 [[nodiscard]] std::vector<glm::vec4> surfaceBlock(std::vector<SurfaceLayer> surfaces, CompositingSpace space,

@@ -51,13 +51,14 @@ Result<void> RaycastPass::traceSites(const RaycastInputs& inputs, std::span<cons
         if (pixels < budget.wantedPixels() && i + 1 < runs.size()) continue;
         if (!goOn(options.progress, static_cast<double>(i) / static_cast<double>(runs.size()), "drawing"))
             return fail(ErrorCode::Cancelled, "the drawing was cancelled");
-        budget.took(pixels, drawTiles(batch, cost));
+        budget.took(pixels, drawTiles(inputs, batch, cost));
         batch.clear();
         pixels = 0.0;
     }
     std::vector<glm::vec4> rows;
     const int width = std::min(lattice.size.x + shift, inputs.target->size.x);
     readRows(*inputs.target, width, std::min(lattice.size.y + shift, inputs.target->size.y), rows);
+    if (inputs.slabs) finish(*inputs.slabs, rows);
     lattice.sites.resize(static_cast<std::size_t>(lattice.size.x) * static_cast<std::size_t>(lattice.size.y));
     for (const Tile& run : runs)
         for (int j = run.origin.y; j < run.origin.y + run.size.y; ++j)

@@ -17,6 +17,10 @@ bool usesRunningIntegrals(Integrator integrator) {
     return integrator == Integrator::IntegralFunctions || integrator == Integrator::Adaptive;
 }
 
+bool followsVoxels(const Features& features) {
+    return features.integrator == Integrator::Adaptive && features.filter == Filter::Nearest;
+}
+
 Features featuresOf(const Scene& scene) {
     Features features;
     features.mode = scene.mode;

@@ -37,9 +37,10 @@ struct Features {
     int surfaces = 0;  ///< Count of the volume's isosurfaces; Isosurface only.
     XRayDisplay xray = XRayDisplay::Opacity;
     CompositingSpace space = CompositingSpace::Display;
-    // Set by makePlan, since they depend on the data too.
+    // Set by makePlan, since they depend on the data or the device too.
     Skipping skipping = Skipping::None;
     GradientSource gradients = GradientSource::OnTheFly;
+    bool slabs = false;  ///< Rays are drawn in parts.
     bool operator==(const Features&) const = default;
 };
 
@@ -50,6 +51,9 @@ struct Features {
 [[nodiscard]] bool usesPreintegration(Integrator integrator);
 /// Integrators that make segments from running integrals of the transfer function.
 [[nodiscard]] bool usesRunningIntegrals(Integrator integrator);
+
+/// True where segments end at the borders of voxels, whatever the step.
+[[nodiscard]] bool followsVoxels(const Features& features);
 
 /// Pure; drops what cannot matter (no lights in a mode that does not shade, no termination where nothing
 /// saturates). Precondition: the scene is completed().

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "renderer/plan/blocks.h"
+#include "renderer/plan/slabs.h"
 #include "renderer/plan/stages.h"
 #include "renderer/plan/volume_format.h"
 
@@ -91,7 +92,7 @@ Result<void> planGradients(Plan& plan, const Scene& scene, const VolumeFacts& fa
     return {};
 }
 
-void dropGradientTexture(Plan& plan, const std::string& reason) {
+Result<void> dropGradientTexture(Plan& plan, const DeviceLimits& limits, const std::string& reason) {
     Features features = plan.features;
     features.gradients = GradientSource::OnTheFly;
     changeFeatures(plan, features);
@@ -101,6 +102,7 @@ void dropGradientTexture(Plan& plan, const std::string& reason) {
         plan.totalBytes -= row.bytes;
         return true;
     });
+    return fitLoops(plan, limits);
 }
 
 }  // namespace pellucid::renderer

@@ -33,7 +33,8 @@ struct FieldLayout {
 [[nodiscard]] Result<void> planGradients(Plan& plan, const Scene& scene, const VolumeFacts& facts,
                                          const DeviceLimits& limits);
 
-/// The plan with gradients on the fly, for want of the texture it had.
-void dropGradientTexture(Plan& plan, const std::string& reason);
+/// The plan with gradients on the fly, for want of the texture it had. Errors: those of fitLoops.
+[[nodiscard]] Result<void> dropGradientTexture(Plan& plan, const DeviceLimits& limits,
+                                               const std::string& reason);
 
 }  // namespace pellucid::renderer

@@ -11,6 +11,7 @@
 #include "renderer/plan/number_limits.h"
 #include "renderer/plan/preintegration.h"
 #include "renderer/plan/skipping.h"
+#include "renderer/plan/slabs.h"
 #include "renderer/plan/stages.h"
 #include "renderer/plan/transfer_table.h"
 #include "renderer/plan/volume_format.h"
@@ -89,22 +90,12 @@ Result<void> checkChoices(const Features& features, const Quality& quality) {
     return {};
 }
 
-Result<void> checkSamples(const Plan& plan, const DeviceLimits& limits) {
-    const double samples = plan.samplesPerRay;
-    if (!(samples <= kMaxSamplesPerRay))
-        return fail(ErrorCode::InvalidArgument,
-                    fmt::format("/quality: a step of {:g} mm makes {:.3g} samples on the longest ray; at "
-                                "most {:.0f} are allowed",
-                                plan.stepMm, samples, kMaxSamplesPerRay));
-    // The halvings of a surface's root and what each loop needs to find its end.
-    constexpr double kTurnsPerRay = 32.0;
-    if (samples * turnsPerSample(plan) + kTurnsPerRay > limits.maxLoopTurns)
-        return fail(ErrorCode::InvalidArgument,
-                    fmt::format("/quality: a step of {:g} mm makes {:.0f} samples on the longest ray of {:g} "
-                                "loop turns each; this OpenGL driver ends loops after {:.0f} turns, take a "
-                                "longer step",
-                                plan.stepMm, samples, turnsPerSample(plan), limits.maxLoopTurns));
-    return {};
+Result<void> checkSamples(const Plan& plan) {
+    if (plan.samplesPerRay <= kMaxSamplesPerRay) return {};
+    return fail(ErrorCode::InvalidArgument,
+                fmt::format("/quality: a step of {:g} mm makes {:.3g} samples on the longest ray; at "
+                            "most {:.0f} are allowed",
+                            plan.stepMm, plan.samplesPerRay, kMaxSamplesPerRay));
 }
 
 TableLayout layoutFor(const Scene& scene, const Plan& plan, const VolumeFacts& facts) {
@@ -188,23 +179,6 @@ VolumeFacts factsOf(const Volume& volume, int component) {
             volume.hasValues(component)};
 }
 
-double turnsPerSample(const Plan& plan) {
-    // A loop takes one turn more than its body, the one that finds it at its end. Loops of few turns are
-    // unrolled by the compiler and take none: those of the filters (up to 6 x 6 x 6) and over up to 8 lights.
-    constexpr int kUnrolledLights = 8;
-    const bool surface = has(plan, "traverse", "boundaries");
-    const double overLights = plan.features.lit && !surface && plan.features.lights > kUnrolledLights
-                                  ? plan.features.lights + 1.0
-                                  : 0.0;
-    // A lit sample: two turns to find it, one to light it.
-    if (plan.features.lit && has(plan, "compose", "over")) return 3.0 + overLights;
-    // One to pass a segment, two for each surface crossed in it and what lights it.
-    if (plan.features.surfaces > 0) return 1.0 + plan.features.surfaces * (2.0 + overLights);
-    if (has(plan, "traverse", "adaptive")) return 1.0 + 3.0 * overLights;
-    if (has(plan, "traverse", "midpoints_by_four")) return 0.25;
-    return 1.0 + overLights;
-}
-
 glm::ivec2 targetSize(glm::ivec2 picture) {
     // Large pictures are drawn in bands, so that the float target stays within 128 MB.
     constexpr int kMaxTargetPixels = 8 << 20;
@@ -237,10 +211,13 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
     if (auto fine = checkNumbers(scene, plan, facts.grid); !fine) return tl::unexpected(fine.error());
     plan.samplesPerRay =
         scene.mode == Mode::Slice ? 1.0 : std::ceil(2.0 * radiusMm(facts.grid) / plan.stepMm);
+    // Borders of voxels are crossed once each.
+    if (followsVoxels(plan.features))
+        plan.samplesPerRay = facts.grid.size.x + facts.grid.size.y + facts.grid.size.z;
     auto choice = chooseStages(plan.features);
     plan.stages = std::move(choice.rows);
     plan.leftOut = std::move(choice.leftOut);
-    if (auto fine = checkSamples(plan, limits); !fine) return tl::unexpected(fine.error());
+    if (auto fine = checkSamples(plan); !fine) return tl::unexpected(fine.error());
     if (plan.features.earlyTermination) plan.earlyTerminationBound = scene.quality.earlyTermination;
 
     const auto target = targetSize(scene.picture.size);
@@ -275,8 +252,9 @@ Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volume
                                   fmt::format("{} surfaces, ascending", plan.features.surfaces)});
     for (const auto& pass : plan.passes) plan.totalBytes += pass.bytes;
     for (const auto& resource : plan.resources) plan.totalBytes += resource.bytes;
-    planSkipping(plan, scene, facts, limits);
+    planSkipping(plan, scene, facts);
     if (auto fine = planGradients(plan, scene, facts, limits); !fine) return tl::unexpected(fine.error());
+    if (auto fine = fitLoops(plan, limits); !fine) return tl::unexpected(fine.error());
     addMainMemory(plan, scene, facts);
     return plan;
 }

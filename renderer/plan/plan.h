@@ -83,8 +83,11 @@ struct Plan {
     TableLayout table;
     std::string automatic;  ///< What is chosen only when drawn, a sentence; empty: nothing is.
     double stepMm = 0.0;
-    double longestStepMm = 0.0;          ///< stepMm, but where steps follow the data.
-    double samplesPerRay = 0.0;          ///< Upper bound: volume diagonal / step.
+    double longestStepMm = 0.0;  ///< stepMm, but where steps follow the data.
+    double samplesPerRay = 0.0;  ///< Upper bound: volume diagonal / step.
+    /// Parts of equally many samples, one behind the other, that rays are drawn in: a driver may end a
+    /// pixel's loops before the whole ray is drawn (DeviceLimits::maxLoopTurns).
+    int slabs = 1;
     double earlyTerminationBound = 0.0;  ///< Error bound in display units; 0 when rays never stop early.
     std::uint64_t totalBytes = 0;        ///< GPU memory of passes and resources.
     /// Main memory at the most: the volume as stored, what is known of its blocks, the picture. Where the
@@ -106,10 +109,6 @@ struct DeviceLimits {
 };
 [[nodiscard]] Result<Plan> makePlan(const Scene& scene, const std::vector<VolumeFacts>& volumes,
                                     const DeviceLimits& limits = {});
-
-/// Turns of all loops of the program that one sample takes, as counted on llvmpipe (Mesa 22.3); what
-/// DeviceLimits::maxLoopTurns limits. Of the adaptive integrator: one tried segment.
-[[nodiscard]] double turnsPerSample(const Plan& plan);
 
 /// Size of the float render target of a picture: as wide, and as high as 128 MB allow. Larger pictures are
 /// drawn in bands.

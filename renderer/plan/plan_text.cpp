@@ -32,6 +32,7 @@ std::string planText(const Plan& plan) {
     for (const auto& row : plan.leftOut) text += fmt::format("  {:<15} {}\n", row.what, row.reason);
     if (!plan.automatic.empty()) text += plan.automatic + "\n";
     text += fmt::format("step {:g} mm, at most {:.0f} samples a ray\n", plan.stepMm, plan.samplesPerRay);
+    if (plan.slabs > 1) text += fmt::format("rays drawn in {} slabs, from front to back\n", plan.slabs);
     if (plan.earlyTerminationBound > 0.0)
         text += fmt::format("early termination changes a pixel by at most {:.2g} ({:.2f} grey levels)\n",
                             plan.earlyTerminationBound, plan.earlyTerminationBound * 255.0);
@@ -66,6 +67,7 @@ nlohmann::ordered_json planJson(const Plan& plan) {
     if (!plan.automatic.empty()) json["automatic"] = plan.automatic;
     json["stepMm"] = plan.stepMm;
     json["samplesPerRay"] = plan.samplesPerRay;
+    json["slabs"] = plan.slabs;
     json["earlyTerminationBound"] = plan.earlyTerminationBound;
     json["tableWorstError"] = plan.table.worstError;
     json["totalBytes"] = plan.totalBytes;

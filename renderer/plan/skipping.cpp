@@ -35,19 +35,6 @@ bool everyValueShows(const Scene& scene, const Plan& plan, const VolumeFacts& fa
                        [&](const ValueRange& range) { return range.lo <= all.lo && range.hi >= all.hi; });
 }
 
-/// Turns of the loops of one ray at most, with leaps. Where a loop of leaps stands in a loop of samples, rays
-/// that are drawn together wait for each other: all of a group's leaps may follow one another. None goes over
-/// less than four samples.
-double turnsWithLeaps(const Plan& plan) {
-    constexpr double kRaysTogether = 16.0;
-    constexpr double kOthers = 48.0;  // once a ray
-    const bool nested = std::any_of(plan.stages.begin(), plan.stages.end(), [](const StageRow& row) {
-        return row.stage == "traverse" && (row.variant == "midpoints_by_four" || row.variant == "segments");
-    });
-    const double leaps = nested ? kRaysTogether * plan.samplesPerRay / 4.0 : 0.0;
-    return plan.samplesPerRay * turnsPerSample(plan) + leaps + kOthers;
-}
-
 /// Puts a choice into the plan in place of the one before. `leftOut`: what was not chosen, and why.
 void choose(Plan& plan, Skipping skipping, const std::vector<LeftOutRow>& leftOut) {
     std::erase_if(plan.leftOut,
@@ -76,7 +63,7 @@ void addLeapField(Plan& plan, glm::ivec3 blocks) {
 
 }  // namespace
 
-void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts, const DeviceLimits& limits) {
+void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts) {
     const auto none = [&](const std::string& reason) {
         choose(plan, Skipping::None, {{kEmptyBlocks, reason}});
     };
@@ -85,11 +72,12 @@ void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts, cons
     const glm::ivec3 blocks = blockCount(facts.grid.size);
     if (blocks == glm::ivec3(1)) return none("the volume is a single block");
     if (everyValueShows(scene, plan, facts)) return none("every value of the data can show");
-    if (turnsWithLeaps(plan) > limits.maxLoopTurns)
-        return choose(plan, Skipping::Box,
-                      {{kLeaps, "rays of so many samples leave the driver no turns of its loops for them"}});
     addLeapField(plan, blocks);
     choose(plan, Skipping::Leaps, {});
+}
+
+void giveUpLeaps(Plan& plan, const std::string& reason) {
+    choose(plan, Skipping::Box, {{kLeaps, reason}});
 }
 
 void refineSkipping(Plan& plan, const OccupancyFacts& occupancy) {
@@ -108,7 +96,7 @@ void refineSkipping(Plan& plan, const OccupancyFacts& occupancy) {
     if (occupancy.boxBlocks == occupancy.blocks)
         choose(plan, Skipping::None, {{kEmptyBlocks, share + ", and the box is the volume"}});
     else if (plan.features.skipping == Skipping::Leaps)
-        choose(plan, Skipping::Box, {{kLeaps, share}});
+        giveUpLeaps(plan, share);
 }
 
 }  // namespace pellucid::renderer

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "renderer/plan/blocks.h"
 #include "renderer/plan/plan.h"
@@ -18,7 +19,10 @@ struct OccupancyFacts {
 
 /// Chooses what is done about samples that cannot show, as far as it can be told without voxels, and lists it
 /// in the plan, or why it is left out. Precondition: the rest of the plan is complete.
-void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts, const DeviceLimits& limits);
+void planSkipping(Plan& plan, const Scene& scene, const VolumeFacts& facts);
+
+/// Leaves the box alone of a plan that has leaps.
+void giveUpLeaps(Plan& plan, const std::string& reason);
 
 /// The same with the blocks known: what would not pay is left out.
 void refineSkipping(Plan& plan, const OccupancyFacts& occupancy);

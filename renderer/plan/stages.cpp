@@ -95,10 +95,12 @@ std::span<const StageVariant> stageTable() {
           "eightTolerances", "kinkWeight"},
          {},
          {"reconstruct", "compose"}},
+        {"traverse", "voxels", {}, {}, {"reconstruct", "compose"}},
         {"traverse", "boundaries", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "crossings", {"stepMm"}, {}, {"reconstruct", "compose"}},
         {"traverse", "plane", {"planeForward", "planeFromAnchorMm"}, {}, {"reconstruct", "compose"}},
         {"refine", "extremum", {}, {}, {"reconstruct", "compose"}},
+        {"slab", "part", {"slabFromMm", "slabToMm", "slabStepMm"}, {}, {}},
         {"encode", "srgb", {"transparentPicture"}, {}, {}},
     };
     return table;
@@ -239,6 +241,8 @@ StageRow traverseRow(const Features& features) {
         return {"traverse", "crossings", "every crossing of a surface is looked for between samples"};
     if (mode == Mode::FirstHit || mode == Mode::Isosurface)
         return {"traverse", "boundaries", "a surface is searched between samples"};
+    if (followsVoxels(features))
+        return {"traverse", "voxels", "nearest is constant in each voxel: segments end at its borders"};
     if (features.integrator == Integrator::Adaptive)
         return {"traverse", "adaptive", "steps follow the error estimate of each segment"};
     if (features.integrator == Integrator::Importance)
@@ -311,6 +315,10 @@ StageChoice chooseStages(const Features& features) {
                                             : "the mode needs the whole ray"});
     }
     rows.push_back(composeRow(features));
+    if (features.slabs)
+        rows.push_back({"slab", "part", "this driver ends loops before rays of so many samples are drawn"});
+    else
+        leftOut.push_back({"slab", "rays are drawn whole"});
     if (features.jitter) {
         rows.push_back({"jitter", "blue_noise", "ray starts are shifted within a step"});
     } else {
@@ -320,7 +328,10 @@ StageChoice chooseStages(const Features& features) {
     if (features.mode == Mode::Mip || features.mode == Mode::MinIp)
         rows.push_back(
             {"refine", "extremum", "the steps miss some of the peak that the extreme value lies on"});
-    if (features.space == CompositingSpace::Linear) {
+    if (features.space == CompositingSpace::Linear && features.slabs) {
+        leftOut.push_back(
+            {"encode", "slabs are blended in linear light, what they come to is encoded once read"});
+    } else if (features.space == CompositingSpace::Linear) {
         rows.push_back({"encode", "srgb", "colours are blended in linear light"});
     } else {
         leftOut.push_back({"encode", "colours are blended as they are shown"});

@@ -312,6 +312,24 @@ TEST_F(Integrators, AdaptiveStepsMeetTheTolerance) {
             }
 }
 
+/// Values that change from voxel to voxel without a pattern: steps that follow differences of samples would
+/// pass over a voxel between two of equal value. One segment a voxel is exact but for float rounding.
+TEST_F(Integrators, AdaptiveSegmentsOfTheNearestFilterEndAtVoxels) {
+    const VolumePtr volume = accuracy::randomVolume(axisAlignedGrid({24, 20, 16}), 5);
+    for (const bool lit : {false, true}) {
+        Scene scene = smoothScene(volume->grid(), Mode::Composite);
+        scene.volumes[0].filter = Filter::Nearest;
+        scene.volumes[0].transferFunction = colourfulFunction();
+        if (lit) scene.lights->push_back(Light{});
+        const ImageF exact = reference(scene, volume, 1e-6);
+        scene.quality.integrator = Integrator::Adaptive;
+        scene.quality.toleranceGreyLevels = 100.0;
+        scene.quality.stepVoxels = 8.0;
+        const auto difference = accuracy::difference(draw(scene, volume), exact).value();
+        EXPECT_LE(difference.maxError, 1e-4) << (lit ? "lit" : "unlit");
+    }
+}
+
 /// B9.5a: where blending stops growing. n layers of opacity a stall when a (1 - A) is half a unit of the
 /// format.
 TEST_F(Integrators, LowAccumulationFormatsStallWhereTheyMust) {

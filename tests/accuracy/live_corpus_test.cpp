@@ -53,6 +53,31 @@ TEST_F(LiveCorpus, EstimatesLieWithinAFactorOfTwo) {
     judge.rmse.expectGood("RMSE");
 }
 
+/// The largest error of lit scans needs the shortest steps: down to a 40th of a voxel, and a quarter of that
+/// for the estimate.
+TEST_F(LiveCorpus, LargestErrorsAskedForAreMetOnLitScans) {
+    for (const Source& source : sources()) {
+        Scene scene = completed(sceneIn(Mode::Composite, true), {source.volume});
+        scene.picture.size = {40, 40};
+        scene.camera.view = AnatomicalView::Anterior;
+        const auto reference = accuracy::referencePicture(scene, {source.volume}, {1e-4, 5, {}});
+        ASSERT_TRUE(reference) << reference.error().text();
+        scene.quality.automatic = true;
+        scene.quality.toleranceNorm = ErrorNorm::Max;
+        for (const double greyLevels : {1.0, 2.0, 4.0}) {
+            scene.quality.toleranceGreyLevels = greyLevels;
+            const renderer::Frame frame = frameOf(scene, source.volume);
+            ASSERT_TRUE(frame.error && frame.chosen);
+            const auto truth = accuracy::difference(frame.image, reference->image).value();
+            const std::string what = fmt::format("{} at {}: {} steps of {:.3g}, estimated {:.3g}",
+                                                 source.name, greyLevels, name(frame.chosen->integrator),
+                                                 frame.chosen->stepVoxels, 255.0 * frame.error->maxError);
+            EXPECT_TRUE(renderer::meetsTolerance(scene.quality, *frame.error)) << what;
+            EXPECT_LE(255.0 * truth.maxError, greyLevels + 0.03) << what;
+        }
+    }
+}
+
 TEST_F(LiveCorpus, TolerancesAskedForAreMet) {
     for (const Source& source : sources()) {
         for (const Mode mode : {Mode::Composite, Mode::XRay, Mode::Mip}) {

@@ -104,7 +104,7 @@ TEST(GradientsPlan, WhatIsAskedForAndCannotBeIsRefused) {
 TEST(GradientsPlan, WithoutTheTextureThePlanIsThatOfOnTheFly) {
     Scene scene = litScene();
     Plan plan = makePlan(scene, {kFacts}).value();
-    dropGradientTexture(plan, "no room");
+    ASSERT_TRUE(dropGradientTexture(plan, {}, "no room"));
     EXPECT_EQ(reasonFor(plan), "no room");
     scene.quality.gradients = Gradients::OnTheFly;
     const Plan onTheFly = makePlan(scene, {kFacts}).value();

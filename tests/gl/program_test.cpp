@@ -56,6 +56,13 @@ std::vector<Features> coveringSet() {
             scene.xray = half == 0 ? XRayDisplay::Opacity : XRayDisplay::Transmittance;
             all.push_back(featuresOf(scene));
         }
+    for (int half = 0; half < 2; ++half) {
+        Scene scene = test::rampScene(half == 0 ? Mode::Composite : Mode::XRay);
+        scene.lights->resize(1);
+        scene.volumes[0].filter = Filter::Nearest;
+        scene.quality.integrator = Integrator::Adaptive;
+        all.push_back(featuresOf(scene));
+    }
     // Differences from a texture: with their values where those are sampled alone, or only they.
     for (const auto integrator : {Integrator::Exponential, Integrator::Simpson})
         for (const bool jitter : {false, true}) {
@@ -70,6 +77,9 @@ std::vector<Features> coveringSet() {
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].mode != Mode::Average && all[i].mode != Mode::Slice)
             all[i].skipping = i % 3 == 0 ? Skipping::Box : Skipping::Leaps;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i].slabs = i % 2 == 0 && (all[i].mode == Mode::Composite || all[i].mode == Mode::FirstHit ||
+                                      all[i].mode == Mode::Isosurface);
     return all;
 }
 

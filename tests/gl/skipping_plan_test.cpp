@@ -67,7 +67,9 @@ TEST(SkippingPlan, WhereItCannotHelpItIsLeftOut) {
 }
 
 TEST(SkippingPlan, LeapsNeedTurnsOfTheDriversLoops) {
-    Scene scene = test::rampScene();
+    // A largest value is not cut into slabs; composites are, with leaps.
+    Scene scene = test::rampScene(Mode::Mip);
+    scene.volumes[0].window = Window{500, 1000};
     DeviceLimits limits;
     limits.maxLoopTurns = 65535.0;
     EXPECT_EQ(makePlan(scene, {kFacts}, limits).value().features.skipping, Skipping::Leaps);
@@ -76,6 +78,10 @@ TEST(SkippingPlan, LeapsNeedTurnsOfTheDriversLoops) {
     EXPECT_EQ(plan.features.skipping, Skipping::Box);
     EXPECT_THAT(reasonFor(plan, "leaps"), testing::HasSubstr("turns"));
     EXPECT_EQ(leapField(plan), nullptr);
+    scene.mode = Mode::Composite;
+    const Plan slabs = makePlan(scene, {kFacts}, limits).value();
+    EXPECT_EQ(slabs.features.skipping, Skipping::Leaps);
+    EXPECT_GT(slabs.slabs, 1);
 }
 
 TEST(SkippingPlan, WhatTheBlocksSayIsTakenIn) {

@@ -85,12 +85,11 @@ TEST_F(RenderServiceTest, ARefinementGivesWayToASliceAndGoesOnWhereItWas) {
 }
 
 TEST_F(RenderServiceTest, AnErrorThatCannotBeMeasuredLeavesThePicture) {
-    // A step that the device draws and whose quarter it refuses.
+    // A step that the device draws and whose quarter it refuses, in a mode whose rays are drawn whole.
     auto renderer = renderer::Renderer::headless().value();
     Scene scene = scan.scene;
     scene.picture.size = {16, 16};
-    // What pictures are compared with: another rule may take more turns a sample than this one.
-    scene.quality.integrator = Integrator::IntegralFunctions;
+    scene.mode = Mode::Mip;
     scene.quality.stepVoxels = 1.0;
     while (renderer.render(scene, scan.volumes) && scene.quality.stepVoxels > 1e-9)
         scene.quality.stepVoxels /= 2.0;

@@ -12,7 +12,7 @@ namespace pellucid::lint {
 namespace {
 
 /// renderer/shaders/README.md: which stage implements which function.
-constexpr std::array<std::pair<const char*, const char*>, 15> kFunctions = {{{"makeRay", "ray"},
+constexpr std::array<std::pair<const char*, const char*>, 16> kFunctions = {{{"makeRay", "ray"},
                                                                              {"reconstruct", "reconstruct"},
                                                                              {"classify", "classify"},
                                                                              {"gradientMm", "gradient"},
@@ -26,6 +26,7 @@ constexpr std::array<std::pair<const char*, const char*>, 15> kFunctions = {{{"m
                                                                              {"occupiedSteps", "bounds"},
                                                                              {"emptySamples", "leap"},
                                                                              {"emptySegments", "leap"},
+                                                                             {"cutToSlab", "slab"},
                                                                              {"encodePicture", "encode"}}};
 
 struct Word {

@@ -55,7 +55,15 @@ void main() {
     //@end
     float tEnter, tExit;
     inVolume = intersectVolume(tEnter, tExit);
+    //@when slab
+    if (inVolume) {
+        cutToSlab(tEnter, tExit);
+        if (tExit > tEnter) traverse(tEnter, tExit);
+    }
+    //@end
+    //@unless slab
     if (inVolume) traverse(tEnter, tExit);
+    //@end
     //@when refine
     if (inVolume) refine(tEnter, tExit);
     //@end

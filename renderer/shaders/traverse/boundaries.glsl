@@ -5,6 +5,7 @@ void traverse(float tEnter, float tExit) {
     vec3 start = ray.texOrigin + tEnter * ray.texDirection;
     float extent = tExit - tEnter;
     int count = max(int(ceil(extent / stepMm)), 1);
+    int last = count;
     int i = 0;
     //@when bounds
     ivec2 occupied = occupiedSteps(tEnter, stepMm, count);
@@ -18,8 +19,9 @@ void traverse(float tEnter, float tExit) {
         vec3 next = start + min(float(i) * stepMm, extent) * ray.texDirection;
         i = min(i + max(emptySamples(next, stepMm) - 1, 0), count);
         //@end
-        float along = min(float(i) * stepMm, extent);
-        vec3 p = start + along * ray.texDirection;
-        if (composeSample(reconstruct(p), p, tEnter + along, 0.0)) break;
+        // The end itself, not what it rounds to: another part of the ray may begin there, with the same value.
+        float t = i == last ? tExit : min(tEnter + float(i) * stepMm, tExit);
+        vec3 p = ray.texOrigin + t * ray.texDirection;
+        if (composeSample(reconstruct(p), p, t, 0.0)) break;
     }
 }

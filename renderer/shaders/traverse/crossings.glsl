@@ -16,7 +16,8 @@ void traverse(float tEnter, float tExit) {
         while (level == target && next <= count) {
             tFront = tBack;
             uFront = uBack;
-            tBack = tEnter + min(float(next) * stepMm, extent);
+            // The end itself, not what it rounds to: another part of the ray may begin there, with the same value.
+            tBack = next == count ? tExit : min(tEnter + float(next) * stepMm, tExit);
             uBack = reconstruct(ray.texOrigin + tBack * ray.texDirection);
             target = levelOf(uBack);
             ++next;
