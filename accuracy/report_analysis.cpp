@@ -10,6 +10,7 @@
 
 #include "accuracy/report_plan.h"
 #include "accuracy/report_reference.h"
+#include "renderer/plan/features.h"
 
 namespace pellucid::accuracy {
 namespace {
@@ -74,6 +75,8 @@ void setOrder(ReportSeries& series, const ReportData& data, const Scene& scene) 
     } else if (series.theory && *series.order.order < *series.theory - 0.15) {
         const std::string why = unsmoothness(scene, setting.filter);
         series.remark = "not smooth: " + (why.empty() ? "steps not fine enough to see the order" : why);
+        if (renderer::usesPreintegration(setting.integrator))
+            series.remark += "; or its table's resolution, which short steps do not better";
     }
 }
 

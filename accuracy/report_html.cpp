@@ -99,8 +99,13 @@ std::string timeToErrorTable(const ReportAnalysis& analysis) {
         for (const ReportSeries& s : analysis.series)
             if (s.timesToError[l]) best.back() = std::min(best.back(), s.timesToError[l]->ms);
     }
-    std::string rows;
+    std::string rows, none;
     for (const ReportSeries& s : analysis.series) {
+        if (std::none_of(s.timesToError.begin(), s.timesToError.end(),
+                         [](const auto& time) { return time.has_value(); })) {
+            none += (none.empty() ? "" : "; ") + s.name;
+            continue;
+        }
         rows += "<tr><td>" + escaped(s.name) + "</td>";
         for (std::size_t l = 0; l < best.size(); ++l) {
             const auto& time = s.timesToError[l];
@@ -115,7 +120,8 @@ std::string timeToErrorTable(const ReportAnalysis& analysis) {
            "&le;: the cheapest setting measured is better already; &ndash;: not reached. Shaded: within a "
            "tenth of the "
            "fastest.</p>\n" +
-           table(head, rows);
+           table(head, rows) +
+           (none.empty() ? "" : "<p class=\"quiet\">None of these reached: " + escaped(none) + ".</p>\n");
 }
 
 std::string orderTable(const ReportAnalysis& analysis) {
@@ -228,7 +234,7 @@ std::string measurementTable(const ReportData& data) {
     std::string rows;
     for (const Measurement& m : data.measurements)
         rows += row({escaped(settingName(m.setting)), msText(m.firstMs), msText(m.wallMs),
-                     m.gpuMs ? msText(*m.gpuMs) : "&ndash;",
+                     m.gpuMs ? msText(*m.gpuMs) : "&ndash;", fmt::format("{}", m.warmFrames),
                      m.bytes ? fmt::format("{:.2f}", static_cast<double>(*m.bytes) / 0x1p20) : "&ndash;",
                      fmt::format("{:.2e}", m.maxError), fmt::format("{:.2e}", m.rmse),
                      std::isfinite(m.psnr) ? fmt::format("{:.1f}", m.psnr) : "&infin;",
@@ -240,8 +246,9 @@ std::string measurementTable(const ReportData& data) {
                 ? ", which this software driver's timer does not tell: it is the wall clock "
                   "around them"
                 : "") +
-           ". Memory is what the plan allots.</p>\n" +
-           table({"setting", "first, ms", "wall, ms", "GPU, ms", "MiB", "max", "RMSE", "PSNR, dB", "SSIM"},
+           ". Wall and GPU times are medians of so many warm frames. Memory is what the plan allots.</p>\n" +
+           table({"setting", "first, ms", "wall, ms", "GPU, ms", "frames", "MiB", "max", "RMSE", "PSNR, dB",
+                  "SSIM"},
                  rows);
 }
 

@@ -50,10 +50,12 @@ Result<void> writeReport(const fs::path& folder, const accuracy::ReportData& dat
     return written;
 }
 
-/// A name for people: that of the scene file or of the volume.
+/// A name for people: that of the volume, which scanners leave at "None" at times, and of the file.
 std::string nameOf(const InputArguments& input, const Volume& volume) {
-    return volume.info().name.empty() ? fs::path(input.paths.front()).filename().string()
-                                      : volume.info().name;
+    fs::path path = fs::path(input.paths.front()).lexically_normal();
+    if (path.filename().empty()) path = path.parent_path();
+    const std::string file = path.filename().string();
+    return volume.info().name.empty() ? file : fmt::format("{} ({})", volume.info().name, file);
 }
 
 void printSummary(const fs::path& folder, const accuracy::ReportData& data) {
