@@ -272,6 +272,7 @@ Result<Frame> Renderer::render(const Scene& scene, const std::vector<VolumePtr>&
     m_state->context.makeCurrent();
     std::optional<GlStateScope> restore;
     if (!m_state->context.isOwn()) restore.emplace();
+    m_state->store.dropGone();
 
     const Scene full = isComplete(scene) ? scene : completed(scene, volumes);
     if (full.quality.automatic && full.mode != Mode::Slice)

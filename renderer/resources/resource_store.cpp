@@ -30,10 +30,8 @@ bool toFront(std::list<T>& entries, const Matches& matches) {
 }
 
 /// What was made of this component of the volume and matches, moved to the front; null when there is none.
-/// Drops what belongs to volumes that are gone.
 template <class Entries, class Matches>
 auto* ofVolume(Entries& entries, const VolumePtr& volume, int component, const Matches& matches) {
-    entries.remove_if([](const auto& entry) { return entry.volume.expired(); });
     const bool known = toFront(entries, [&](const auto& entry) {
         return entry.component == component && entry.volume.lock() == volume && matches(entry.made);
     });
@@ -78,6 +76,13 @@ auto& findOrMake(Entries& entries, const TransferFunction1D& function, Compositi
 }
 
 }  // namespace
+
+void ResourceStore::dropGone() {
+    const auto drop = [](auto&... lists) {
+        (lists.remove_if([](const auto& entry) { return entry.volume.expired(); }), ...);
+    };
+    drop(m_volumes, m_fields, m_importances, m_ranges, m_leaps);
+}
 
 Result<const VolumeTexture*> ResourceStore::volume(const VolumePtr& volume, int component,
                                                    const Progress& progress) {

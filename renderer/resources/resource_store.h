@@ -15,10 +15,13 @@
 
 namespace pellucid::renderer {
 
-/// GPU objects by the values they depend on: an edit rebuilds what depends on it and nothing else. Volumes go
-/// when nobody else holds them, tables when newer ones have pushed them out.
+/// GPU objects by the values they depend on: an edit rebuilds what depends on it and nothing else. Volumes
+/// and all that was made of them go when nobody else holds them, tables when newer ones have pushed them out.
 class ResourceStore {
 public:
+    /// Drops what was made of volumes that are gone; before each picture, since it may be many times what the
+    /// picture needs.
+    void dropGone();
     [[nodiscard]] Result<const VolumeTexture*> volume(const VolumePtr& volume, int component,
                                                       const Progress& progress);
     [[nodiscard]] const TransferTexture& table(const TransferFunction1D& function, CompositingSpace space,
