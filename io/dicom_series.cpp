@@ -48,12 +48,10 @@ Result<std::vector<SliceHeader>> readHeaders(const DicomSeries& series, const Pr
     return slices;
 }
 
-/// One of so many voxels along each axis is in a coarse copy.
-constexpr int kCoarseEvery = 4;
 /// Below this the whole is there before anybody could have seen a copy.
 constexpr std::uint64_t kLeastForCoarse = 16'000'000;
 
-/// Every fourth voxel, which lies where it lay. Only those slices need to be decoded.
+/// One of kCoarseEvery voxels along each axis, which lies where it lay. Only those slices need to be decoded.
 Result<VolumePtr> coarseCopy(const Grid& grid, VoxelType type, std::span<const std::byte> voxels,
                              const ValueMapping& mapping, const VolumeInfo& info) {
     Grid coarse = grid;

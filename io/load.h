@@ -27,13 +27,16 @@ struct RawLayout {
     std::string unit;
 };
 
+/// A coarse copy has one voxel of so many along each axis.
+inline constexpr int kCoarseEvery = 4;
+
 struct LoadOptions {
     std::optional<RawLayout> raw;  ///< Read the file as raw voxels whatever its name.
     std::string seriesUid;         ///< Which series of a folder or DICOMDIR, when it holds several.
     std::uint64_t maxVoxelBytes = 16ull << 30;  ///< Refused above this, before anything is allocated.
     Progress progress;
-    /// Of a DICOM series of 16 million voxels and more: every fourth voxel along each axis, as soon as these
-    /// slices are there. Called on the loading thread, at most once; loading may still fail after it.
+    /// Of a DICOM series of 16 million voxels and more: one voxel of kCoarseEvery along each axis, as soon as
+    /// these slices are there. Called on the loading thread, at most once; loading may still fail after it.
     std::function<void(VolumePtr coarse)> coarse{};
 };
 

@@ -5,6 +5,7 @@
 #include <QPainter>
 
 #include "app/desktop/theme.h"
+#include "io/load.h"
 #include "renderer/resize.h"
 
 namespace pellucid::app {
@@ -18,6 +19,13 @@ constexpr double kStepVoxels = 1.0;
 
 }  // namespace
 
+Scene sceneOfCoarse(const VolumePtr& coarse) {
+    Scene scene;
+    scene.unitLengthMm = meanSpacingMm(coarse->grid()) / io::kCoarseEvery;
+    scene.quality.stepVoxels = kStepVoxels;
+    return completed(scene, {coarse});
+}
+
 CoarsePreview::CoarsePreview(RenderService& service, QWidget* parent) : QWidget(parent), m_service(service) {
     setObjectName(QStringLiteral("coarsePreview"));
     setAttribute(Qt::WA_OpaquePaintEvent);
@@ -29,9 +37,8 @@ void CoarsePreview::begin(const VolumePtr& coarse, const QRect& place) {
     setGeometry(place);
     const glm::ivec2 size =
         glm::max(glm::ivec2(glm::dvec2(place.width(), place.height()) * devicePixelRatioF()), glm::ivec2(1));
-    Scene scene = completed(Scene{}, {coarse});
+    Scene scene = sceneOfCoarse(coarse);
     scene.picture.size = renderer::reducedSize(size, kReduction);
-    scene.quality.stepVoxels = kStepVoxels;
     m_asked = m_service.request({.channel = kChannel,
                                  .scene = std::move(scene),
                                  .volumes = {coarse},

@@ -9,6 +9,10 @@
 
 namespace pellucid::app {
 
+/// The whole as it will look by default, of its coarse copy: voxels are further apart, the optical density of
+/// a mm is that of the whole.
+[[nodiscard]] Scene sceneOfCoarse(const VolumePtr& coarse);
+
 /// A picture of a coarse copy of what is being opened, over the views, until the first picture of the whole
 /// is there. It belongs to no document: whatever becomes of the opening, what was shown before is untouched.
 class CoarsePreview : public QWidget {

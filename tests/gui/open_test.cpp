@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "app/desktop/coarse_preview.h"
 #include "io/scene_file.h"
 #include "tests/gui/gui_support.h"
 #include "tests/support/synthetic_dicom.h"
@@ -165,11 +166,13 @@ TEST_F(OpenTest, ALargeSeriesIsSeenBeforeItIsThere) {
     };
     writeSeries(series, folder());
     auto* preview = child<QWidget>("coarsePreview");
+    VolumePtr coarse;
     int previews = 0;
     bool wasSeen = false;
     QImage seen;
-    QObject::connect(&window.loader(), &app::Loader::previewed, [&] {
+    QObject::connect(&window.loader(), &app::Loader::previewed, [&](const VolumePtr& copy) {
         ++previews;
+        coarse = copy;
         EXPECT_EQ(document().volume().grid().size, smallVolume()->grid().size)
             << "the document is not touched";
     });
@@ -183,6 +186,9 @@ TEST_F(OpenTest, ALargeSeriesIsSeenBeforeItIsThere) {
     EXPECT_EQ(previews, 1);
     EXPECT_TRUE(waitFor([&] { return volumeView()->isSettled() && !preview->isVisible(); }));
     EXPECT_EQ(document().volume().grid().size, glm::ivec3(512, 512, 63));
+    ASSERT_TRUE(coarse);
+    // As dense as the whole, whose spacings are a quarter.
+    EXPECT_NEAR(*app::sceneOfCoarse(coarse).unitLengthMm, *document().completeScene().unitLengthMm, 1e-12);
     if (!wasSeen) return;  // The whole was faster.
     EXPECT_GT(seen.pixelColor(seen.rect().center()).value(), 40);
     EXPECT_LT(seen.pixelColor(3, seen.height() - 4).value(), 10);
