@@ -156,6 +156,107 @@ TEST(Occupancy, DistancesAndBoxAreThoseOfBruteForce) {
     }
 }
 
+/// An octree of value ranges over blocks (Engel et al. 2006, section 7.3.4), every node from the voxels.
+class BruteForceOctree {
+public:
+    BruteForceOctree(const Volume& volume, ValueRange shown) : m_size(volume.grid().size.x), m_shown(shown) {
+        for (int k = 0; k < m_size; ++k)
+            for (int j = 0; j < m_size; ++j)
+                for (int i = 0; i < m_size; ++i) m_texels.push_back(texelOf(volume, {i, j, k}, 0));
+        for (int edge = kBlockEdge; edge <= m_size; edge *= 2) {
+            const int nodes = m_size / edge;
+            m_empty.emplace_back();
+            for (int z = 0; z < nodes; ++z)
+                for (int y = 0; y < nodes; ++y)
+                    for (int x = 0; x < nodes; ++x)
+                        m_empty.back().push_back(isEmpty(glm::ivec3(x, y, z) * edge, edge));
+        }
+    }
+
+    [[nodiscard]] int levels() const { return static_cast<int>(m_empty.size()); }
+    /// Whether the node that holds a block shows nothing.
+    [[nodiscard]] bool isEmptyAt(int level, glm::ivec3 block) const {
+        const int nodes = m_size / kBlockEdge >> level;
+        const glm::ivec3 at(block.x >> level, block.y >> level, block.z >> level);
+        return m_empty[static_cast<std::size_t>(level)]
+                      [static_cast<std::size_t>((at.z * nodes + at.y) * nodes + at.x)];
+    }
+    [[nodiscard]] double texel(glm::ivec3 i) const {
+        return m_texels[static_cast<std::size_t>((i.z * m_size + i.y) * m_size + i.x)];
+    }
+
+private:
+    /// With the voxel beyond each side that trilinear interpolation reads, and two quanta more than is shown.
+    [[nodiscard]] bool isEmpty(glm::ivec3 from, int edge) const {
+        double lo = 2.0, hi = -1.0;
+        const glm::ivec3 first = glm::max(from - 1, 0), end = glm::min(from + edge + 1, m_size);
+        for (int k = first.z; k < end.z; ++k)
+            for (int j = first.y; j < end.y; ++j)
+                for (int i = first.x; i < end.x; ++i) {
+                    lo = std::min(lo, texel({i, j, k}));
+                    hi = std::max(hi, texel({i, j, k}));
+                }
+        constexpr double kMargin = 2.0 / 65535.0;
+        return hi < m_shown.lo - kMargin || lo > m_shown.hi + kMargin;
+    }
+
+    int m_size;
+    ValueRange m_shown;
+    std::vector<double> m_texels;
+    std::vector<std::vector<bool>> m_empty;
+};
+
+/// The cubes are at least as large as an octree's empty nodes allow from where a ray is, so that rays along
+/// the axis leave large empty regions in fewer leaps, although each is one look-up instead of a descent.
+TEST(Occupancy, CubesCoverTheEmptyNodesOfAnOctreeOnEveryLevel) {
+    for (const double radius : {9.0, 17.3, 28.0}) {
+        constexpr int kSize = 64;
+        const auto volume = test::makeVolume({kSize, kSize, kSize}, [&](int i, int j, int k) {
+            const glm::dvec3 apart = glm::dvec3(i, j, k) - glm::dvec3(30.0, 33.5, 31.0);
+            return 30000.0 / (1.0 + std::exp(glm::length(apart) - radius));  // u from 0.5 to 0.96
+        });
+        const ValueRange shown{0.65, 0.75};
+        const BruteForceOctree octree(*volume, shown);
+        const BlockRanges ranges = blockRanges(*volume, 0, 1);
+        const Occupancy found = occupancyOf(ranges, ShownQuanta(std::vector<ValueRange>{shown}), 0.0);
+        const int blocks = kSize / kBlockEdge;
+        const auto distance = [&](glm::ivec3 b) {
+            return int{found.distance[static_cast<std::size_t>((b.z * blocks + b.y) * blocks + b.x)]};
+        };
+        for (int k = 0; k < kSize; ++k)
+            for (int j = 0; j < kSize; ++j)
+                for (int i = 0; i < kSize; ++i)
+                    if (const double u = octree.texel({i, j, k}); u >= shown.lo && u <= shown.hi) {
+                        ASSERT_EQ(distance(glm::ivec3(i, j, k) / kBlockEdge), 0);
+                    }
+        int emptyNodes = 0, leaps = 0, octreeLeaps = 0, octreeReads = 0;
+        for (int z = 0; z < blocks; ++z)
+            for (int y = 0; y < blocks; ++y) {
+                for (int x = 0; x < blocks; ++x)
+                    for (int level = 0; level < octree.levels(); ++level) {
+                        const glm::ivec3 at(x, y, z);
+                        if (!octree.isEmptyAt(level, at)) continue;
+                        const glm::ivec3 inside(x & ((1 << level) - 1), y & ((1 << level) - 1),
+                                                z & ((1 << level) - 1));
+                        const glm::ivec3 near = glm::min(inside, (1 << level) - 1 - inside) + 1;
+                        ASSERT_GE(distance(at), std::min({near.x, near.y, near.z})) << level;
+                        ++emptyNodes;
+                    }
+                for (int x = 0; x < blocks; x += std::max(1, distance({x, y, z}))) ++leaps;
+                for (int x = 0; x < blocks; ++octreeLeaps) {
+                    int level = octree.levels() - 1;
+                    while (level > 0 && !octree.isEmptyAt(level, {x, y, z})) --level;
+                    octreeReads += octree.levels() - level;
+                    x = ((x >> level) + 1) << level;
+                }
+            }
+        EXPECT_GT(emptyNodes, 0);
+        // Beside a surface cubes are small: more leaps, each of one read.
+        EXPECT_LT(leaps, 1.25 * octreeLeaps) << radius;
+        EXPECT_LT(2 * leaps, octreeReads) << radius;
+    }
+}
+
 TEST(Occupancy, OvershootReachesBeyondTheRange) {
     BlockRanges ranges;
     ranges.blocks = {2, 1, 1};
