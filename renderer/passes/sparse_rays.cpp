@@ -24,6 +24,11 @@ public:
         m_largest = std::max({m_largest, d.r, d.g, d.b});
         m_count += 3;
     }
+    void add(const Differences& others) {
+        m_squares += others.m_squares;
+        m_largest = std::max(m_largest, others.m_largest);
+        m_count += others.m_count;
+    }
     [[nodiscard]] double in(ErrorNorm norm) const {
         return norm == ErrorNorm::Max ? m_largest : std::sqrt(m_squares / std::max(m_count, 1));
     }
@@ -58,7 +63,7 @@ int sitesFor(int finerCount) {
 
 /// How far sites of a window are from what their neighbours at `reach` and three times that predict, along
 /// both axes.
-double predictionError(const Lattice& lattice, glm::ivec2 lo, glm::ivec2 hi, int reach, ErrorNorm norm) {
+Differences predictionErrors(const Lattice& lattice, glm::ivec2 lo, glm::ivec2 hi, int reach) {
     Differences differences;
     for (int axis = 0; axis < 2; ++axis) {
         const std::ptrdiff_t step = axis == 0 ? reach : std::ptrdiff_t{reach} * lattice.size.x;
@@ -71,7 +76,7 @@ double predictionError(const Lattice& lattice, glm::ivec2 lo, glm::ivec2 hi, int
                 differences.add(*at, middleOf(at[-3 * step], at[-step], at[step], at[3 * step]));
             }
     }
-    return differences.in(norm);
+    return differences;
 }
 
 /// First site at or after a pixel, and sites from there on that lie in a tile.
@@ -132,19 +137,32 @@ SparseRays::SparseRays(glm::ivec2 picture, double tolerance, ErrorNorm norm)
     m_budget = tolerance * tolerance * static_cast<double>(tiles);
 }
 
-SparseRays::Estimate SparseRays::coarseEstimate(const Lattice& coarse, glm::ivec2 tile) const {
-    // One site more on each side: what lies between two tiles is seen by both.
-    const glm::ivec2 first(firstSite(coarse, tile.x * kSparseTile), firstSite(coarse, tile.y * kSparseTile));
-    const glm::ivec2 last = first + kSparseTile / coarse.stride - 1;
-    const glm::ivec2 lo = glm::max(first - 1, 0), hi = glm::min(last + 1, coarse.size - 1);
-    Estimate estimate;
-    estimate.previous = predictionError(coarse, lo, hi, 1, m_norm);
-    // Few sites can be predicted at four times the stride, so the window is wider there.
-    const double before =
-        predictionError(coarse, glm::max(lo - 2, 0), glm::min(hi + 2, coarse.size - 1), 2, m_norm);
-    estimate.gain = before > 0.0 ? std::clamp(estimate.previous / before, kBestGain, 1.0) : 1.0;
-    estimate.error = estimate.previous * estimate.gain;
-    return estimate;
+void SparseRays::estimate(const Lattice& coarse) {
+    std::vector<Differences> previous, before;
+    for (int y = 0; y < m_choice.count.y; ++y)
+        for (int x = 0; x < m_choice.count.x; ++x) {
+            // One site more on each side: what lies between two tiles is seen by both.
+            const glm::ivec2 first(firstSite(coarse, x * kSparseTile), firstSite(coarse, y * kSparseTile));
+            const glm::ivec2 last = first + kSparseTile / coarse.stride - 1;
+            const glm::ivec2 lo = glm::max(first - 1, 0), hi = glm::min(last + 1, coarse.size - 1);
+            previous.push_back(predictionErrors(coarse, lo, hi, 1));
+            before.push_back(predictionErrors(coarse, lo, hi, 2));
+        }
+    for (int y = 0; y < m_choice.count.y; ++y)
+        for (int x = 0; x < m_choice.count.x; ++x) {
+            Differences near, far;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, m_choice.count.y - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, m_choice.count.x - 1); ++u) {
+                    near.add(previous[tileIndex(u, v)]);
+                    far.add(before[tileIndex(u, v)]);
+                }
+            Estimate estimate;
+            estimate.previous = previous[tileIndex(x, y)].in(m_norm);
+            estimate.gain =
+                far.in(m_norm) > 0.0 ? std::clamp(near.in(m_norm) / far.in(m_norm), kBestGain, 1.0) : 1.0;
+            estimate.error = estimate.previous * estimate.gain;
+            m_estimates.push_back(estimate);
+        }
 }
 
 double SparseRays::keepSmallest(std::vector<std::pair<double, std::size_t>> errors, double part,
@@ -166,12 +184,12 @@ double SparseRays::keepSmallest(std::vector<std::pair<double, std::size_t>> erro
 }
 
 const TileChoice& SparseRays::afterCoarse(const Lattice& coarse) {
+    estimate(coarse);
     std::vector<std::pair<double, std::size_t>> errors;
-    for (int y = 0; y < m_choice.count.y; ++y)
-        for (int x = 0; x < m_choice.count.x; ++x) {
-            m_estimates.push_back(coarseEstimate(coarse, {x, y}));
-            errors.emplace_back(m_estimates.back().error, errors.size());
-        }
+    for (const auto& [previous, error, gain] : m_estimates)
+        // A kept tile is interpolated twice, and each time adds its own error.
+        errors.emplace_back(error * (m_norm == ErrorNorm::Max ? 1.0 + gain : std::sqrt(1.0 + gain * gain)),
+                            errors.size());
     // Half is left for the tiles of the middle lattice.
     const double kept =
         std::max(keepSmallest(errors, 0.5, m_choice.traceMiddle), std::sqrt(0.5) * m_tolerance);

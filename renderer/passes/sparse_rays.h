@@ -70,7 +70,13 @@ private:
         double error = 0.0;     ///< Of interpolation at this stride, in the norm, over the tile.
         double gain = 1.0;      ///< Error at half the stride, as a part of this one.
     };
-    [[nodiscard]] Estimate coarseEstimate(const Lattice& coarse, glm::ivec2 tile) const;
+    [[nodiscard]] std::size_t tileIndex(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_choice.count.x) +
+               static_cast<std::size_t>(x);
+    }
+    /// Of every tile. The gain is that of the tile and its eight neighbours: of one tile alone it is seen at
+    /// few sites, and the tiles with the smallest errors would be those whose gain is too small by accident.
+    void estimate(const Lattice& coarse);
     /// Takes the smallest errors within a part of what is left of the budget; gives the largest error taken.
     double keepSmallest(std::vector<std::pair<double, std::size_t>> errors, double part,
                         std::vector<std::uint8_t>& others);
